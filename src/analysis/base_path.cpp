@@ -194,7 +194,7 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   crawl.begin(rays.rays[0].tangent);
   int left = points_behind;
   Crawl seen = Crawl::none;
-  InfiniteForceWatch forces(problem);
+  InfiniteForceWatch forces(problem, events);
   const auto observe = [&](const CurvePoint& p) {
     if (path.is_enough && left-- == 0) return false;
     if (forces.sees(p)) return false;
@@ -245,6 +245,8 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
     const Hit* hit = s < 0   ? hit_at(backward, -s)
                      : s > 0 ? hit_at(forward, s)
                              : hit_at_start(on_start, event.kind);
+    // What is not looked for from the start on.
+    if (hit == nullptr && s == 0 && event.kind == EventKind::unresolved) hit = hit_at(forward, s);
     if (hit != nullptr && event.kind != EventKind::end_of_range && !is_end_at_kink(event))
       path.points.push_back({event.label, event.kind, event.row, *hit});
   }

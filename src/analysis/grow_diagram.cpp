@@ -72,7 +72,7 @@ class Grower {
     options_.maximum_branches = t_.study.branches.maximum;
     int points = 0;
     std::vector<CurvePoint> away;  // where lambda grows without bound
-    InfiniteForceWatch forces(t_.problem);
+    InfiniteForceWatch forces(t_.problem, events_);
     const auto observe = [&](const CurvePoint& point) {
       ++points;
       if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) return false;

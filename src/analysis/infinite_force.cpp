@@ -44,6 +44,32 @@ bool keeps_its_piece(const PathProblem& problem, const CurvePoint& point) {
   return true;
 }
 
+/// Of what closures leave, which are as small as positions however large the wrenches are.
+double left_of_closures(const PathProblem& problem, const Vector& x, double lambda,
+                        const Piece& piece) {
+  Vector F;
+  if (!problem.residual(x, lambda, piece, F)) return std::numeric_limits<double>::infinity();
+  return wrenches_of(problem, F).lpNorm<Eigen::Infinity>();
+}
+
+/// Further iterations, as long as closures gain by them: the tolerance is to the largest wrench.
+void close_chains(const PathProblem& problem, const continuation::Direction& along,
+                  CurvePoint& point) {
+  constexpr int most = 4;
+  constexpr continuation::NewtonOptions one_step{.residual_tolerance = 0, .maximum_iterations = 1};
+  double left = left_of_closures(problem, point.x, point.lambda, point.piece);
+  for (int i = 0; i < most && left > 0; ++i) {
+    const auto finer = continuation::correct(problem, problem.metric(), point.x, point.lambda,
+                                             point.piece, along, one_step);
+    const double now =
+        finer.x.allFinite() ? left_of_closures(problem, finer.x, finer.lambda, point.piece) : left;
+    if (!(now < left)) return;
+    left = now;
+    point.x = finer.x;
+    point.lambda = finer.lambda;
+  }
+}
+
 /// The solved point after this share of the way that is left: moved on along the chord, its wrenches as much larger.
 std::optional<CurvePoint> after_share(const PathProblem& problem, const CurvePoint& earlier,
                                       const CurvePoint& last, double left, double share) {
@@ -66,6 +92,7 @@ std::optional<CurvePoint> after_share(const PathProblem& problem, const CurvePoi
   point.x = solved.x;
   point.lambda = solved.lambda;
   point.s = last.s + share * left;
+  close_chains(problem, along, point);
   const Vector reached = wrenches_of(problem, point.x);
   const bool has_grown = reached.dot(w) > w.squaredNorm();
   return has_grown && keeps_its_piece(problem, point) ? std::optional(point) : std::nullopt;
@@ -142,7 +169,9 @@ bool is_solved_on_side_of(const PathProblem& problem, const CurvePoint& point,
          wrenches_of(problem, point.x).dot(wrenches_of(problem, before.x)) >= 0;
 }
 
-InfiniteForceWatch::InfiniteForceWatch(const PathProblem& problem) : problem_{problem} {
+InfiniteForceWatch::InfiniteForceWatch(const PathProblem& problem,
+                                       const std::vector<continuation::Event>& events)
+    : problem_{problem}, events_{events} {
   const statics::System& layout = problem.layout();
   for (Index i = 0; i < layout.first_pose; ++i)
     if (layout.is_wrench[static_cast<std::size_t>(i)]) wrenches_.push_back(i);
@@ -170,6 +199,13 @@ bool InfiniteForceWatch::sees(const CurvePoint& point) {
   return ends_behind(before, point, force);
 }
 
+/// Does an event of the caller lie between two points, a limit among them?
+bool InfiniteForceWatch::meets_event(const CurvePoint& from, const CurvePoint& to) const {
+  return std::any_of(events_.begin(), events_.end(), [&](const continuation::Event& event) {
+    return (event.value(from) < 0) != (event.value(to) < 0);
+  });
+}
+
 bool InfiniteForceWatch::ends_behind(const CurvePoint& before, const CurvePoint& point,
                                      double force) {
   constexpr double steps_ahead = 2;  // a pole farther on has nothing to do with these two points
@@ -177,14 +213,17 @@ bool InfiniteForceWatch::ends_behind(const CurvePoint& before, const CurvePoint&
   const auto left = way_left(problem_, before, point);
   if (!left || *left > steps_ahead * (point.s - before.s)) return false;
   constexpr double next_time = 4;
-  asked_at_ = next_time * force;
   Approach to = approach(problem_, before, point);
-  if (!to.has_grown || !to.is_pole) return false;
+  if (!to.has_grown || !to.is_pole) {
+    asked_at_ = next_time * force;
+    return false;
+  }
   EndOfCurve end{to.at, point, {}};
   for (const CurvePoint& p : far_) end.far.push_back(&p);
   const auto legs = stretched_chains(problem_, end);
   if (!legs || !legs->is_end_of_reach) return false;
   complete_point(problem_, to.before, to.at);
+  if (meets_event(point, to.at)) return false;
   ends_.push_back({point, std::move(to.at), "end of the reach: " + legs->text});
   return true;
 }

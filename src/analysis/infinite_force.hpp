@@ -30,7 +30,8 @@ bool is_solved_on_side_of(const PathProblem& problem, const continuation::CurveP
 /// points where they are very large, and in a diagram branches of them.
 class InfiniteForceWatch {
  public:
-  explicit InfiniteForceWatch(const PathProblem& problem);
+  /// @param events  of the trace: one that lies before the pole is met first. Both must outlive this
+  InfiniteForceWatch(const PathProblem& problem, const std::vector<continuation::Event>& events);
 
   /// To be told every point of a curve, in order; a smaller s begins another curve.
   /// @returns whether the curve ends behind this point: forces have grown a hundredfold since its start, the pole is no farther
@@ -49,10 +50,12 @@ class InfiniteForceWatch {
   static constexpr double looked_at_from = 1e2;  ///< forces so much larger than at the start
 
   void begin(const continuation::CurvePoint& point, double force);
+  bool meets_event(const continuation::CurvePoint& from, const continuation::CurvePoint& to) const;
   bool ends_behind(const continuation::CurvePoint& before, const continuation::CurvePoint& point,
                    double force);
 
   const PathProblem& problem_;
+  const std::vector<continuation::Event>& events_;
   std::vector<Index> wrenches_{};                ///< their places among the unknowns
   std::vector<continuation::CurvePoint> far_{};  ///< the 1st, 2nd, 4th, 8th ... point
   continuation::CurvePoint last_{};

@@ -35,7 +35,7 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
   const auto events = events_of(t.study, t.evaluator, t.quantities);
   int points = 1;
   Crawl crawl = Crawl::none;
-  InfiniteForceWatch forces(t.problem);
+  InfiniteForceWatch forces(t.problem, events);
   const auto observe = [&](double sign) {
     return [&points, &crawl, &forces, &t, sign](const CurvePoint& point) {
       ++points;

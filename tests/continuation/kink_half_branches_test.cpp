@@ -169,10 +169,20 @@ TEST(HalfBranches, AreTheSameInTheOtherDirection) {
   }
 }
 
-TEST(HalfBranches, AreSaidToBeUnresolvedWhereTooManySwitchesRest) {
+TEST(HalfBranches, AreFoundInAllPiecesOfNineSwitches) {
   // nine springs in nine motions of their own: 512 pieces, all with room beside the branch
-  const OneSidedModes problem{9, Vector::Constant(9, 1.0), Vector::Constant(9, 0.5), 0};
-  const Curve curve = follow_straight(problem, Piece(9, 1), 0.5);
+  const OneSidedModes problem{9, Vector::LinSpaced(9, 1.0, 1.8), Vector::Constant(9, 0.5), 0};
+  const Curve curve = follow_straight(problem, Piece(9, 1), 2.4);
+  EXPECT_EQ(curve.stop, StopReason::event);
+  EXPECT_TRUE(hits_of(curve, HitKind::unresolved).empty());
+  // Without its spring a motion goes at 1.0, 1.1, ... to one side; with it at 1.5, 1.6, ... to the other one.
+  EXPECT_EQ(hits_of(curve, HitKind::branching_kink).size(), 14u);
+}
+
+TEST(HalfBranches, AreSaidToBeUnresolvedWhereTooManySwitchesRest) {
+  const OneSidedModes problem{13, Vector::Constant(13, 1.0), Vector::Constant(13, 0.5), 0};
+  const Ray straight{Piece(13, 1), {Vector::Zero(13), 1}};
+  const Curve curve = trace(problem, Vector::Zero(13), 0, straight, {lambda_reaches(0.5)}, {});
   EXPECT_EQ(curve.stop, StopReason::event);
   const auto unresolved = hits_of(curve, HitKind::unresolved);
   ASSERT_EQ(unresolved.size(), 1u) << "once for the whole branch";

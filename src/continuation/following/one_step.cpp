@@ -134,8 +134,13 @@ bool is_on_step(const Walker& walker, const CurvePoint& here, const KinkSearch& 
       !chord.go_through(walker.weights, here, StepSamples(here, nullptr, next)))
     return true;
   const double off = distance_of(walker, model, here, kink.point);
-  return off <= one_place * (1 + kink.point.x.norm()) ||
-         off <= small_share * distance_of(walker, chord, here, kink.point);
+  if (off <= one_place * (1 + kink.point.x.norm()) ||
+      off <= small_share * distance_of(walker, chord, here, kink.point))
+    return true;
+  // Rounding moves a point across what is soft, with no other branch near.
+  const TestedStep step(walker, kink.point, next.s - here.s);
+  const auto other = separation_at(step, kink.point);
+  return other && off <= between_samples * other->blur && off <= small_share * other->distance;
 }
 
 /// May the curve go on past special points that are not told apart? They are then one unresolved point.

@@ -74,6 +74,8 @@ void add_doubt(std::string why, Rays& rays) {
 bool is_known(const Walker& walker, const Piece& preferred, const Piece& piece, const PieceWay& way,
               const std::vector<Index>& unsure, const std::vector<Index>& resting, Rays& rays) {
   for (Ray& ray : rays.rays) {
+    // Branches of a singular piece were found apart, though they may touch each other here.
+    if (way.start && ray.start && ray.piece == piece) continue;
     std::vector<Index> either = ray.resting;
     either.insert(either.end(), resting.begin(), resting.end());
     if (!differ_only(ray.piece, piece, either) ||
@@ -199,7 +201,6 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
   };
   for (unsigned pattern = 0; pattern < (1u << active.size()); ++pattern) {
     ray.piece = piece_of(at.piece, active, pattern);
-    if (among && std::ranges::find(*among, ray.piece) == among->end()) continue;
     const bool arrives = along && ray.piece == at.piece;
     PieceWays ways = arrives ? both_ways(*along) : regular_ways(walker, ray, full_rank, polished);
     if (along && active.size() == 1 && !ways.list.empty()) {
@@ -214,7 +215,7 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
       }
     }
     if (ways.singular) singular.push_back(pattern);
-    add(ways);
+    if (ways.singular || !among || std::ranges::find(*among, ray.piece) != among->end()) add(ways);
   }
   if (active.empty() && !singular.empty())
     add_doubt("more than one curve, or none, passes through this point", rays);

@@ -16,8 +16,8 @@
 namespace springfold::continuation {
 namespace {
 
-constexpr std::size_t most_pieces =
-    256;  // beside the curve, whose test functions are looked at on every step
+/// Beside the curve, whose test functions are looked at on every step: all of as many springs as may rest.
+constexpr std::size_t most_pieces = std::size_t{1} << most_active;
 
 /// An eigenvalue of some piece is zero here.
 struct ZeroBeside {
@@ -207,7 +207,8 @@ bool explain(const Walker& walker, const std::vector<Index>& resting,
   // The curve stays within all surfaces: a piece that is regular here has no other way.
   std::vector<Piece> singular{hit.point.piece};
   for (const ZeroBeside& other : places)
-    singular.insert(singular.end(), other.pieces.begin(), other.pieces.end());
+    if (std::abs(other.hit.point.s - hit.point.s) <= told_apart)
+      singular.insert(singular.end(), other.pieces.begin(), other.pieces.end());
   const Rays rays =
       rays_around(walker, hit.point, resting, half_branch_rank, nullptr, false, &singular);
   hit.switches = resting;

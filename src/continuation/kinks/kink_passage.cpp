@@ -94,10 +94,17 @@ bool fits(const KinkSearch& kink, const Hit& hit, int before, int after) {
   return (before != after) == (std::abs(*last - *first) % 2 == 1);
 }
 
+/// Not where dF/dx vanishes but for what rounding of lambda makes of it, as on a family in a bent coordinate.
 bool is_surely_counted(const Walker& walker, const CurvePoint& p) {
-  Linearisation at;
-  return p.negative && linearise_densely(walker.problem, p.x, p.lambda, p.piece, at) &&
-         corank(at.dF_dx) == 0;
+  if (!p.negative) return false;
+  const double off = few_roundings * std::max(1.0, std::abs(p.lambda));
+  for (const double side : {-1.0, 0.0, 1.0}) {
+    Linearisation at;
+    if (!linearise_densely(walker.problem, p.x, p.lambda + side * off, p.piece, at) ||
+        corank(at.dF_dx) > 0 || negative_eigenvalues(at) != p.negative)
+      return false;
+  }
+  return true;
 }
 
 /// Does lambda turn at a kink beside which it seems to stand still, as the identity of fits() has it? In a large unit of

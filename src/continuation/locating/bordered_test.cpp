@@ -47,22 +47,10 @@ void measure_motion(Workspace& memory, const LinearisedPoint& middle,
     if (!(sizes[i] == 0)) memory.moving_rows.push_back(i);
 }
 
-/// Is E0 known? A corrected point is off by |E0^-1| times what Newton's method may leave, and E by that times its change per
-/// length: beside a singular point this may be as large as what is to be told from zero.
-/// @param rows  those that move, for which the inverse is known
-bool is_known(const Matrix& inverse, const Matrix& motion, const std::vector<Index>& rows,
-              double residual_over_length) {
-  constexpr double clearly = 0.25;
-  const Vector off = residual_over_length * inverse.cwiseAbs().rowwise().sum();
-  const Vector change = (motion * off)(rows);
-  return !((inverse.cwiseAbs() * change).maxCoeff() > clearly);
-}
-
 /// |E0^-1| |E1 - E0| is no smaller than |E0^-1 (E1 - E0)| and takes one product of a few for all E1, which nearly always
 /// is enough. Rows that do not move, the last one among them, count for nothing.
-/// @param residual_over_length  what a corrected point leaves of the equations, over the way to the others
 bool surely_regular(Workspace& memory, LinearisedPoint& middle,
-                    std::span<const LinearisedPoint* const> others, double residual_over_length) {
+                    std::span<const LinearisedPoint* const> others) {
   const Index n = middle.x.size();
   Matrix &inverse = memory.inverse, &motion = memory.motion;
   measure_motion(memory, middle, others);
@@ -70,7 +58,6 @@ bool surely_regular(Workspace& memory, LinearisedPoint& middle,
   const auto count = static_cast<Index>(rows.size());
   middle.factors.invert(rows, inverse);
   if (!all_finite(inverse)) return false;
-  if (count > 0 && !is_known(inverse, motion, rows, residual_over_length)) return false;
   Vector &d = memory.bound, &Xd = memory.step, &moved = memory.F;
   d.resize(n + 1);
   Xd.resize(n + 1);
@@ -138,9 +125,7 @@ bool surely_regular(const Walker& walker, const Direction& tau, Samples samples)
   std::size_t number = 0;
   for (std::size_t i = 0; i < count; ++i)
     if (i != middle) others[number++] = places[i];
-  const double length = samples.back()->s - samples.front()->s;
-  return surely_regular(*walker.memory, *places[middle], std::span(others).first(number),
-                        2 * walker.options.newton.residual_tolerance / length);
+  return surely_regular(*walker.memory, *places[middle], std::span(others).first(number));
 }
 
 Reach reach_of(const std::vector<ExtendedMatrix>& E, std::size_t middle) {

@@ -105,7 +105,12 @@ std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
   // The curve bends away from its tangent by no more than a right angle's half.
   if (!(along > 0 && along <= h) || length_of(walker, offset) > std::numbers::sqrt2 * h)
     return std::nullopt;
-  auto point = point_at(walker, from, along);
+  // Another branch may be nearer than the curve's bend over the step: the cubic through both ends leads to its own.
+  ArcModel chord;
+  auto point = chord.go_through(walker.weights, from, StepSamples(from, nullptr, to))
+                   ? point_near(walker, chord, from, along)
+                   : std::nullopt;
+  if (!point) point = point_at(walker, from, along);
   if (!point) return std::nullopt;
   if (!coincide(walker, *point, target)) return std::nullopt;
   return point;
