@@ -200,8 +200,8 @@ class Threshold {
     while (clear && std::abs(*clear - bad) > closest_bracket * std::abs(to - from)) {
       const double middle = bad + 0.5 * (*clear - bad);
       const At at = look(middle);
-      const bool is_placed = std::abs(*clear - bad) <=
-                             continuation::promised_place * std::max(std::abs(to), width());
+      const bool is_placed =
+          std::abs(*clear - bad) <= continuation::promised_place * std::max(std::abs(to), width());
       if (at == At::unknown && is_placed) break;
       if (at == At::unknown) {
         result_.doubts.push_back("between " + study_.critical.parameter + " = " +

@@ -72,7 +72,7 @@ enum class StopReason {
   bad_start,       ///< the start is no point of a curve: no unique tangent, or F is not defined
   observer,        ///< the caller asked to stop
   unbounded,       ///< as `observer`, where the caller saw lambda grow without bound
-  pole,            ///< as `observer`, where the caller saw unknowns go to infinity: nothing lies ahead
+  pole,  ///< as `observer`, where the caller saw unknowns go to infinity: nothing lies ahead
 };
 
 std::string_view to_string(StopReason reason);
