@@ -135,8 +135,9 @@ bool parts_modes(const Family& family, const CriticalStart& start, const Critica
     return Vector((start.held_left.transpose() * at.A * start.held_right).reshaped());
   };
   const auto change = derivative_at_zero(eigenvalues, family.step);
-  const double size = std::max(1.0, rate.dx.lpNorm<Eigen::Infinity>());
-  return !change || change->lpNorm<Eigen::Infinity>() > poor * size;
+  // With a unit of a small parameter everything changes little: then only rounding of differences is nothing.
+  const double own = std::max(std::abs(rate.dlambda), rate.dx.lpNorm<Eigen::Infinity>());
+  return !change || change->lpNorm<Eigen::Infinity>() > std::max(poor * own, residual_level);
 }
 
 CriticalCurve follow_held(const Family& family, const CriticalStart& start, bool growing,

@@ -381,9 +381,10 @@ std::optional<CriticalPoint> critical_rate(const Family& family, const CriticalS
   const FullPivotLu lu(J);
   if (!lu.is_invertible()) return std::nullopt;
   const Vector rate = -lu.solve(by_mu);
-  const double size = std::max(1.0, rate.lpNorm<Eigen::Infinity>());
+  // With a unit of a small parameter everything changes little: then only rounding of differences is nothing.
+  const double own = rate.lpNorm<Eigen::Infinity>(), size = std::max(1.0, own);
   if (!rate.allFinite() || system->unfolding(rate) > kept_within * size ||
-      system->rate_of_parting(*X, start.mu, rate) > poor * size)
+      system->rate_of_parting(*X, start.mu, rate) > std::max(poor * own, residual_level))
     return std::nullopt;
   return CriticalPoint{.x = system->state(*X),
                        .lambda = system->lambda(*X),

@@ -141,6 +141,23 @@ void leave_zero_at_begin(const Walker& walker, const CurvePoint& own,
   first = std::move(*moved);
 }
 
+/// May a branch of this piece leave along a direction, one way or the other, as the rates of the resting switches say? Not if
+/// some of them clearly lead into the piece and others out of it.
+bool may_leave(const Walker& walker, const Piece& piece, const std::vector<Index>& resting,
+               const CurvePoint& at, const Direction& along) {
+  Matrix dg_dx;
+  Vector dg_dlambda;
+  if (!walker.problem.switch_gradients(at.x, at.lambda, dg_dx, dg_dlambda)) return true;
+  double in = 0, out = 0;
+  for (const Index j : resting) {
+    const double rate =
+        piece[static_cast<std::size_t>(j)] * switch_rate(dg_dx, dg_dlambda, j, along);
+    in = std::max(in, rate);
+    out = std::max(out, -rate);
+  }
+  return std::min(in, out) <= negligible_share * std::max(in, out);
+}
+
 /// Zeros of the eigenvalues in all pieces beside the step.
 /// @returns false for too many pieces
 bool find_places(const Walker& walker, Samples samples, const std::vector<Index>& resting,
@@ -159,7 +176,10 @@ bool find_places(const Walker& walker, Samples samples, const std::vector<Index>
     leave_zero_at_begin(walker, *samples.front(), moved);
     std::vector<const CurvePoint*> pointers;
     for (const CurvePoint& point : moved) pointers.push_back(&point);
-    StepEvents singular = singular_points(TestedStep(walker, pointers), pointers);
+    StepEvents singular = singular_points(TestedStep(walker, pointers), pointers,
+                                          [&](const CurvePoint& at, const Direction& null) {
+                                            return may_leave(walker, piece, resting, at, null);
+                                          });
     if (!singular.doubt.empty()) {
       found.doubt = "beside " + names_of(walker.problem, resting) + ": " + singular.doubt;
       found.unexplained = singular.unexplained;

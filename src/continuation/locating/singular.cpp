@@ -262,6 +262,19 @@ Hit hit_of(const TestedStep& arc, Candidate candidate) {
   return hit;
 }
 
+/// Takes out the zeros of one mode whose branch does not lead on.
+std::size_t pass_over(const TestedStep& arc, const LeadsOn& leads_on, TestedZeros& singular) {
+  if (!leads_on || singular.order > 1) return 0;
+  return std::erase_if(singular.zeros, [&](const ZeroOf& zero) {
+    const auto& point = arc.point(zero.at);
+    const auto E = point ? arc.matrix(*point) : std::nullopt;
+    if (!E) return false;
+    const Vector null = weakest_borders(*E).C.col(0);
+    const Index n = null.size() - 1;
+    return !leads_on(*point, {null.head(n), null[n]});
+  });
+}
+
 /// What is said of a branch point beside itself when rounding does not let it be placed to 1e-10.
 std::optional<Hit> inexact_place(const Hit& hit, double off) {
   const double scale = std::max(1.0, size_of(hit.point));
@@ -306,18 +319,20 @@ std::optional<std::vector<ZeroOf>> turns_on_widened(const Walker& walker, const 
   return turns;
 }
 
-StepEvents singular_points(const TestedStep& arc, Samples samples) {
+StepEvents singular_points(const TestedStep& arc, Samples samples, const LeadsOn& leads_on) {
   StepEvents result;
   const CurvePoint& to = *samples.back();
   const TraceOptions& options = arc.walker().options;
   TestedZeros turns = turns_on(arc, samples);
-  const TestedZeros singular = singularities_on(arc, samples);
+  TestedZeros singular = singularities_on(arc, samples);
   if (!turns.resolved || !singular.resolved) {
     result.flat = turns.flat && singular.resolved && singular.zeros.empty();
     result.doubt = result.flat ? "lambda stands still to rounding, it may turn here several times"
                                : "special points too close together";
     return result;
   }
+  const std::size_t passed_over = pass_over(arc, leads_on, singular);
+  if (passed_over > 0 && singular.zeros.empty() && turns.zeros.empty()) return result;
   std::vector<Candidate> found;
   if (!add_branch_points(arc, singular, turns.zeros, found) ||
       !add_limit_points(arc, turns.zeros, found)) {
@@ -337,7 +352,8 @@ StepEvents singular_points(const TestedStep& arc, Samples samples) {
     result.doubt = "rounding does not determine the point at the end of the step";
     return result;
   }
-  if (options.limit_points && options.branch_points) result.doubt = accounting(arc, found, to);
+  if (options.limit_points && options.branch_points && passed_over == 0)
+    result.doubt = accounting(arc, found, to);
   if (!result.doubt.empty()) return result;
   for (Candidate& candidate : found) {
     const double off = candidate.off;

@@ -1,6 +1,7 @@
 // Limit points, branch points and touches on one step. Private to the engine.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,10 @@ struct StepEvents {
 /// sign where the branch itself turns at a branch point; a zero without change of sign is a touch.
 /// @param arc      the step
 /// @param samples  its ends and points between them, in order; all on one piece
-StepEvents singular_points(const TestedStep& arc, Samples samples);
+/// @param leads_on  may a branch leave along this null vector? Singular points of one mode at which none does are passed over;
+///                  empty: all count
+using LeadsOn = std::function<bool(const CurvePoint& at, const Direction& null)>;
+StepEvents singular_points(const TestedStep& arc, Samples samples, const LeadsOn& leads_on = {});
 
 /// Rates of lambda this many times their rounding have a sign beyond doubt.
 inline constexpr double clear_of_rounding = 100;
