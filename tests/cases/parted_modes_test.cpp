@@ -134,5 +134,21 @@ critical_load = { of = "loss_of_stability", parameter = "psi", range = [-0.3, 0.
   EXPECT_TRUE(at_zero);
 }
 
+/// K = diag(1 - lambda, 1 + e - lambda): loads 4e-10 apart are one point, and no mean of 0 and 1 is the rate of either.
+TEST(PartedModes, HaveNoRateByASmallParameterThatPartsThem) {
+  std::string text = bar_on_universal_joint(
+      "kind = \"sensitivity\"\nsensitivity = { parameters = [\"e\", \"c\"] }\n");
+  text.replace(text.find("c = 1\n"), 6, "c = 1\ne = 4e-10\n");
+  text.replace(text.find("c*c2"), 4, "c*c2*(1 + e)");
+  const analysis::StudyResult result = run(text).of("s");
+  for (const auto& event : result.branches.at(0).events) {
+    if (event.kind != analysis::EventKind::branch_point) continue;
+    const auto& values = result.branches[0].samples[event.row].values;
+    EXPECT_TRUE(std::isnan(values[column(result, "d(lambda)/d(e)")]));
+    EXPECT_NEAR(values[column(result, "d(lambda)/d(c)")], 1, 1e-8);
+    EXPECT_THAT(event.detail, testing::HasSubstr("no rate by e"));
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io

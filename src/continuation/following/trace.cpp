@@ -8,6 +8,7 @@
 #include "continuation/following/one_step.hpp"
 #include "continuation/following/wider_steps.hpp"
 #include "continuation/kinks/beside.hpp"
+#include "continuation/kinks/kink.hpp"
 #include "continuation/points/normalised.hpp"
 #include "springfold/continuation/entry_checks.hpp"
 #include "springfold/continuation/interrupted.hpp"
@@ -145,8 +146,7 @@ Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece&
   const Walker walker{own, own.metric(), options};
   const CurvePoint at = own.inside(x, lambda);
   const std::vector<Index> active = active_switches(walker, at.x, at.lambda);
-  if (active.size() > 12)
-    return {.complete = false, .why = "too many switches act at the start point"};
+  if (active.size() > most_active) return {.complete = false, .why = too_many(active.size())};
   Rays result = rays_at(walker, at.x, at.lambda, piece, active);
   for (Ray& ray : result.rays) ray = own.outside(ray, at);
   return result;

@@ -16,6 +16,12 @@ namespace springfold::continuation {
 /// Switches at one point whose 2^k pieces are looked at.
 inline constexpr std::size_t most_active = 12;
 
+/// What is said of more.
+inline std::string too_many(std::size_t count) {
+  return "too many switches act at one point: " + std::to_string(count) +
+         ", and the pieces of at most " + std::to_string(most_active) + " are looked at";
+}
+
 /// All ways to leave a point of the curve on which the switches `active` are zero. Every one of the
 /// 2^k pieces around it is linearised, and of its two tangents those are kept that lead into it (a
 /// one-sided linear complementarity problem, solved by enumeration; Cottle, Pang and Stone 1992):
