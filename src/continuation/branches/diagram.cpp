@@ -187,7 +187,7 @@ void Tracer::add_start(const DiagramStart& start, int number) {
   const std::vector<Index> active = active_switches(walker_, start.x, start.lambda);
   if (active.size() > most_active)
     return doubt(DoubtKind::ways_missing,
-                 "directions at the start may be missing: " + too_many(active.size()), point);
+                 "directions at the start may be missing: " + too_many_act(active.size()), point);
   const int corank = active.empty() ? corank_of(walker_, point, located_rank) : 0;
   Hit hit{.kind = HitKind::branch_point, .point = point};
   hit.multiplicity = std::max(corank, 1);

@@ -146,7 +146,7 @@ Rays rays_from(ProblemView problem, const Vector& x, double lambda, const Piece&
   const Walker walker{own, own.metric(), options};
   const CurvePoint at = own.inside(x, lambda);
   const std::vector<Index> active = active_switches(walker, at.x, at.lambda);
-  if (active.size() > most_active) return {.complete = false, .why = too_many(active.size())};
+  if (active.size() > most_active) return {.complete = false, .why = too_many_act(active.size())};
   Rays result = rays_at(walker, at.x, at.lambda, piece, active);
   for (Ray& ray : result.rays) ray = own.outside(ray, at);
   return result;

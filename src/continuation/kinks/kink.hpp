@@ -17,7 +17,7 @@ namespace springfold::continuation {
 inline constexpr std::size_t most_active = 12;
 
 /// What is said of more.
-inline std::string too_many(std::size_t count) {
+inline std::string too_many_act(std::size_t count) {
   return "too many switches act at one point: " + std::to_string(count) +
          ", and the pieces of at most " + std::to_string(most_active) + " are looked at";
 }

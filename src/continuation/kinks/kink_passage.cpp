@@ -56,7 +56,7 @@ std::vector<Index> crossed(const KinkSearch& kink, const std::vector<Index>& res
 /// @param arrived  the kink on the piece that the curve comes from
 Rays ways_out(const Walker& walker, const KinkSearch& kink, CurvePoint& arrived) {
   if (kink.active.size() > most_active)
-    return {.complete = false, .why = too_many(kink.active.size())};
+    return {.complete = false, .why = too_many_act(kink.active.size())};
   const Direction along = arrived.tangent;
   Rays rays =
       rays_around(walker, arrived, kink.active, one_place, kink.singular ? nullptr : &along);
