@@ -137,10 +137,14 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
     member.sheet = near.sheet;
     return true;
   }
-  if (solve_beside(member, near) || walk_to(member, near)) return true;
-  const Member* const outward = neighbours(member.mu).outward;
-  if (outward != nullptr && outward->sheet != near.sheet && solve_beside(member, *outward))
-    return true;
+  if (solve_beside(member, near)) return true;
+  // Curves may begin at a member of others, whose parameter is another one: it is no neighbour.
+  if (base_ != nullptr) {
+    if (walk_to(member, near)) return true;
+    const Member* const outward = neighbours(member.mu).outward;
+    if (outward != nullptr && outward->sheet != near.sheet && solve_beside(member, *outward))
+      return true;
+  }
   member.sheet = ++sheets_;
   const auto problem = problem_beside(member, near);
   if (!problem) return false;

@@ -85,7 +85,8 @@ FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& 
   const auto enough = [only_turns](const continuation::Hit& hit) {
     using continuation::HitKind;
     return hit.kind == HitKind::limit_point || hit.kind == HitKind::corner ||
-           (!only_turns && hit.kind == HitKind::branch_point);
+           (!only_turns &&
+            (hit.kind == HitKind::branch_point || hit.kind == HitKind::branching_kink));
   };
   const auto find = [&](const BasePath& path) {
     const auto found = std::find_if(

@@ -71,8 +71,10 @@ void close_chains(const PathProblem& problem, const continuation::Direction& alo
 }
 
 /// The solved point after this share of the way that is left: moved on along the chord, its wrenches as much larger.
+/// @param switches  set where a spring has switched on the way there
 std::optional<CurvePoint> after_share(const PathProblem& problem, const CurvePoint& earlier,
-                                      const CurvePoint& last, double left, double share) {
+                                      const CurvePoint& last, double left, double share,
+                                      bool& switches) {
   const double way = last.s - earlier.s, on = share * left / way;
   const Vector w = wrenches_of(problem, last.x), v = wrenches_of(problem, earlier.x);
   const continuation::Direction along{(last.x - earlier.x - (w - v)) / way,
@@ -95,19 +97,25 @@ std::optional<CurvePoint> after_share(const PathProblem& problem, const CurvePoi
   close_chains(problem, along, point);
   const Vector reached = wrenches_of(problem, point.x);
   const bool has_grown = reached.dot(w) > w.squaredNorm();
-  return has_grown && keeps_its_piece(problem, point) ? std::optional(point) : std::nullopt;
+  if (!has_grown) return std::nullopt;
+  switches = !keeps_its_piece(problem, point);
+  return switches ? std::nullopt : std::optional(point);
 }
 
 std::optional<CurvePoint> nearer(const PathProblem& problem, const CurvePoint& earlier,
-                                 const CurvePoint& last, double left) {
-  for (const double share : {0.75, 0.5, 0.25})
-    if (auto point = after_share(problem, earlier, last, left, share)) return point;
+                                 const CurvePoint& last, double left, bool& switches) {
+  for (const double share : {0.75, 0.5, 0.25}) {
+    auto point = after_share(problem, earlier, last, left, share, switches);
+    if (point || switches) return point;
+  }
   return std::nullopt;
 }
 
 struct Approach {
-  CurvePoint before{}, at{};  ///< the last two points
-  bool has_grown = false;     ///< a hundredfold
+  CurvePoint before{}, at{};         ///< the last two points
+  std::vector<CurvePoint> passed{};  ///< all of them, in order
+  bool has_grown = false;            ///< wrenches, a hundredfold
+  bool switches = false;             ///< a spring does, before the zero
   bool is_pole =
       false;  ///< up to the last point wrenches grow as the inverse of the way that is left
 };
@@ -120,7 +128,8 @@ Approach approach(const PathProblem& problem, const CurvePoint& earlier, const C
   constexpr double certain_growth = 1e2;
   // Of w times the way that is left from one point to the next: beside a pole it stays, at a finite peak it is lost.
   constexpr double same_inverse = 1.25;
-  Approach to{earlier, last};
+  Approach to{earlier, last, {}};
+  const double grown = certain_growth * wrenches_of(problem, last.x).norm();
   double inverse = 0;
   for (int i = 0; i < most_points; ++i) {
     const auto left = way_left(problem, to.before, to.at);
@@ -129,12 +138,12 @@ Approach approach(const PathProblem& problem, const CurvePoint& earlier, const C
     to.is_pole =
         inverse < same_inverse * earlier_inverse && earlier_inverse < same_inverse * inverse;
     if (!left || *left <= continuation::promised_place) break;
-    auto next = nearer(problem, to.before, to.at, *left);
+    auto next = nearer(problem, to.before, to.at, *left, to.switches);
     if (!next) break;
+    to.passed.push_back(*next);
+    to.has_grown = to.has_grown || wrenches_of(problem, next->x).norm() >= grown;
     to.before = std::exchange(to.at, *std::move(next));
   }
-  to.has_grown =
-      wrenches_of(problem, to.at.x).norm() >= certain_growth * wrenches_of(problem, last.x).norm();
   return to;
 }
 
@@ -148,13 +157,28 @@ void complete_point(const PathProblem& problem, const CurvePoint& earlier, Curve
     point.tangent = *std::move(tangent);
 }
 
+/// Does the way to the pole look as if nothing happened on it? Numbers of negative eigenvalues and the sense of lambda are those
+/// of its first point all along. Where rounding decides on them the curve is traced on.
+bool goes_straight_on(const PathProblem& problem, const CurvePoint& before, CurvePoint first,
+                      std::vector<CurvePoint> passed) {
+  complete_point(problem, before, first);
+  const CurvePoint* last = &first;
+  for (CurvePoint& point : passed) {
+    complete_point(problem, *last, point);
+    if (point.negative != first.negative || point.tangent.dlambda * first.tangent.dlambda <= 0)
+      return false;
+    last = &point;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<CurvePoint> beside_infinite_force(const PathProblem& problem,
                                                 const CurvePoint& earlier, const CurvePoint& last) {
   if (earlier.piece != last.piece || !(last.s > earlier.s)) return std::nullopt;
   Approach to = approach(problem, earlier, last);
-  if (!to.has_grown) return std::nullopt;
+  if (!to.has_grown || to.switches) return std::nullopt;
   complete_point(problem, to.before, to.at);
   return std::move(to.at);
 }
@@ -171,7 +195,7 @@ bool is_solved_on_side_of(const PathProblem& problem, const CurvePoint& point,
 
 InfiniteForceWatch::InfiniteForceWatch(const PathProblem& problem,
                                        const std::vector<continuation::Event>& events)
-    : problem_{problem}, events_{events} {
+    : problem_{problem}, events_{events}, weights_{problem.metric()} {
   const statics::System& layout = problem.layout();
   for (Index i = 0; i < layout.first_pose; ++i)
     if (layout.is_wrench[static_cast<std::size_t>(i)]) wrenches_.push_back(i);
@@ -184,11 +208,20 @@ void InfiniteForceWatch::begin(const CurvePoint& point, double force) {
   asked_at_ = looked_at_from * force;
 }
 
+/// Of the same curve, or of another one? Points of one are no farther from each other than the arc length says.
+bool InfiniteForceWatch::goes_on_at(const CurvePoint& point) const {
+  constexpr double chord_over_arc = 1.01;
+  const Vector dx = point.x - last_.x;
+  const double way = point.s - last_.s, dlambda = point.lambda - last_.lambda;
+  return way > 0 &&
+         std::sqrt(dx.cwiseAbs2().dot(weights_) + dlambda * dlambda) <= chord_over_arc * way;
+}
+
 bool InfiniteForceWatch::sees(const CurvePoint& point) {
   double square = 0;
   for (const Index i : wrenches_) square += point.x[i] * point.x[i];
   const double force = std::sqrt(square);
-  if (count_ == 0 || !(point.s > last_.s)) {
+  if (count_ == 0 || !goes_on_at(point)) {
     begin(point, force);
     return false;
   }
@@ -214,16 +247,17 @@ bool InfiniteForceWatch::ends_behind(const CurvePoint& before, const CurvePoint&
   if (!left || *left > steps_ahead * (point.s - before.s)) return false;
   constexpr double next_time = 4;
   Approach to = approach(problem_, before, point);
-  if (!to.has_grown || !to.is_pole) {
+  EndOfCurve end{to.at, point, {}};
+  for (const CurvePoint& p : far_) end.far.push_back(&p);
+  const bool is_pole = to.has_grown && to.is_pole && !to.switches;
+  const auto legs = is_pole ? stretched_chains(problem_, end) : std::nullopt;
+  if (!legs || !legs->is_end_of_reach) {
     asked_at_ = next_time * force;
     return false;
   }
-  EndOfCurve end{to.at, point, {}};
-  for (const CurvePoint& p : far_) end.far.push_back(&p);
-  const auto legs = stretched_chains(problem_, end);
-  if (!legs || !legs->is_end_of_reach) return false;
   complete_point(problem_, to.before, to.at);
-  if (meets_event(point, to.at)) return false;
+  if (meets_event(point, to.at) || !goes_straight_on(problem_, before, point, to.passed))
+    return false;
   ends_.push_back({point, std::move(to.at), "end of the reach: " + legs->text});
   return true;
 }
@@ -234,7 +268,8 @@ void InfiniteForceWatch::end(continuation::Curve& curve,
   const CurvePoint& last = curve.points.back();
   for (const End& end : ends_)
     if (end.seen.lambda == last.lambda && end.seen.x == last.x) {
-      if (options.verify_arcs) curve.arcs = verified_arcs(problem_, curve, options);
+      if (options.verify_arcs && !curve.arcs.empty())
+        curve.arcs = verified_arcs(problem_, curve, options);
       curve.points.push_back(end.at);
       curve.stop = continuation::StopReason::pole;
       curve.stop_detail = end.text;

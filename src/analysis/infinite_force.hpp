@@ -33,9 +33,10 @@ class InfiniteForceWatch {
   /// @param events  of the trace: one that lies before the pole is met first. Both must outlive this
   InfiniteForceWatch(const PathProblem& problem, const std::vector<continuation::Event>& events);
 
-  /// To be told every point of a curve, in order; a smaller s begins another curve.
-  /// @returns whether the curve ends behind this point: forces have grown a hundredfold since its start, the pole is no farther
-  ///          than the next two steps, and solved points up to it show that it is one and no finite peak
+  /// To be told every point of a curve, in order; one that is not reached from the last one by its arc length begins another.
+  /// @returns whether the curve ends behind this point: forces have grown ten thousandfold since the first one, the pole is no
+  ///          farther than the next two steps, solved points up to it show that it is one and no finite peak, and nothing
+  ///          happens before: no event, switch, turn of lambda, or eigenvalue that changes its sign
   bool sees(const continuation::CurvePoint& point);
 
   /// Puts the solved point beside the pole behind a curve that was ended for this reason, and says so.
@@ -47,15 +48,19 @@ class InfiniteForceWatch {
     std::string text{};
   };
 
-  static constexpr double looked_at_from = 1e2;  ///< forces so much larger than at the start
+  /// Forces so much larger than at the first point: what happens before, the engine finds; ten times as large, rounding begins to
+  /// make events.
+  static constexpr double looked_at_from = 1e4;
 
   void begin(const continuation::CurvePoint& point, double force);
+  bool goes_on_at(const continuation::CurvePoint& point) const;
   bool meets_event(const continuation::CurvePoint& from, const continuation::CurvePoint& to) const;
   bool ends_behind(const continuation::CurvePoint& before, const continuation::CurvePoint& point,
                    double force);
 
   const PathProblem& problem_;
   const std::vector<continuation::Event>& events_;
+  Vector weights_{};
   std::vector<Index> wrenches_{};                ///< their places among the unknowns
   std::vector<continuation::CurvePoint> far_{};  ///< the 1st, 2nd, 4th, 8th ... point
   continuation::CurvePoint last_{};

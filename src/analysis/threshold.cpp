@@ -67,7 +67,7 @@ class Threshold {
       else if (!follow(*bad, mu))
         return;
       any = true;
-      mu = last_ + towards_ * nearest_beside * std::max(std::abs(last_), 1e-3);
+      mu = beyond(last_, nearest_beside);
       // What ends beside where it began is taken up again a little farther on.
     }
     why_ = "the boundary has more pieces than are followed";
@@ -90,15 +90,21 @@ class Threshold {
     return first.point;
   }
 
+  /// So far beyond a value, relative to it, in the direction in which the answer is looked for.
+  double beyond(double mu, double distance) const {
+    constexpr double least_value =
+        1e-3;  // in the parameter's own unit, below which a value counts as zero
+    return mu + towards_ * distance * std::max(std::abs(mu), least_value);
+  }
+
   /// Where an unwanted limit point has reached the start, the start is one: beyond there may be none.
   bool lacks_start(double mu) const { return at_start_ && curves_.at(mu) == nullptr; }
 
   /// Does the start vanish there? Another point of the path may have the start's load, too.
   bool loses_start(double mu) const {
-    const double side = towards_ * nearest_beside * std::max(std::abs(mu), 1e-3);
-    const Member* before = curves_.at(mu - side);
+    const Member* before = curves_.at(beyond(mu, -nearest_beside));
     const int sheet = before != nullptr ? before->sheet : 0;
-    const Member* behind = curves_.at(mu + side);
+    const Member* behind = curves_.at(beyond(mu, nearest_beside));
     return before != nullptr && (behind == nullptr || behind->sheet != sheet);
   }
 
@@ -188,8 +194,7 @@ class Threshold {
     double bad = from;
     std::optional<double> clear;
     // Where points merge a path is told from one without them at this distance before.
-    const double last =
-        at_end ? to : to - towards_ * distances_beside.back() * std::max(std::abs(to), 1e-3);
+    const double last = at_end ? to : beyond(to, -distances_beside.back());
     for (int i = 1; i <= values_between && !clear; ++i) {
       const double value = i == values_between ? last : from + (to - from) * i / values_between;
       if (towards_ * (last - value) < 0 || towards_ * (value - from) <= 0) break;
@@ -275,7 +280,7 @@ class Threshold {
   /// Does nothing unwanted happen at this relative distance on the good side of an answer? Nothing: it is not known.
   std::optional<bool> is_clear_at(double mu, double inwards) {
     why_.clear();
-    const double value = mu + towards_ * inwards * std::max(std::abs(mu), 1e-3);
+    const double value = beyond(mu, inwards);
     if (inwards > 0 && lacks_start(value)) return true;
     if (unwanted_at(value)) return false;
     return why_.empty() ? std::optional{true} : std::nullopt;
@@ -288,7 +293,7 @@ class Threshold {
     report_.message = study_.critical.parameter + " = " + rounded(report_.value) +
                       ", decided by: " + report_.decides;
     if (any) {
-      if (lacks_start(mu + towards_ * nearest_beside * std::max(std::abs(mu), 1e-3)))
+      if (lacks_start(beyond(mu, nearest_beside)))
         report_.message += ", beyond which there is no start";
       const auto is_clear = [&](double inwards) {
         // Before a value that stands alone nothing unwanted happens either.

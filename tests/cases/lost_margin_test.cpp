@@ -57,6 +57,8 @@ threshold = { of = "limit_point", parameter = "W", range = [0, 0.5] }
   ASSERT_TRUE(result.threshold && result.threshold->found);
   EXPECT_NEAR(result.threshold->value, largest_weight, 1e-9);
   EXPECT_EQ(result.threshold->decides, "the limit point reaches the start of the path");
+  // Beyond it the truss starts snapped through.
+  EXPECT_EQ(result.threshold->message.find("no start"), std::string::npos);
   EXPECT_TRUE(result.threshold->verified);
   EXPECT_TRUE(complete(result));
 }

@@ -141,13 +141,16 @@ TEST(PartedModes, HaveNoRateByASmallParameterThatPartsThem) {
   text.replace(text.find("c = 1\n"), 6, "c = 1\ne = 4e-10\n");
   text.replace(text.find("c*c2"), 4, "c*c2*(1 + e)");
   const analysis::StudyResult result = run(text).of("s");
+  int points = 0;
   for (const auto& event : result.branches.at(0).events) {
     if (event.kind != analysis::EventKind::branch_point) continue;
     const auto& values = result.branches[0].samples[event.row].values;
     EXPECT_TRUE(std::isnan(values[column(result, "d(lambda)/d(e)")]));
     EXPECT_NEAR(values[column(result, "d(lambda)/d(c)")], 1, 1e-8);
     EXPECT_THAT(event.detail, testing::HasSubstr("no rate by e"));
+    ++points;
   }
+  EXPECT_EQ(points, 1);
 }
 
 }  // namespace

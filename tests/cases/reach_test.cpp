@@ -258,5 +258,54 @@ branches={depth=1,maximum=6}
   EXPECT_NEAR(std::remainder(value(result, last, "c1.j2"), std::numbers::pi), 0, 1e-6);
 }
 
+/// Two mirrored arms of links 1 and 0.6 that fold at x = 0.4, their body held across by a spring: as the force grows without bound
+/// the body buckles to one side, however stiff that spring is.
+std::string folding_arms(double across, double off) {
+  const double x = 0.9, knee = std::acos((x * x - 1.36) / 1.2);
+  const double foot = -std::atan2(0.6 * std::sin(knee), 1 + 0.6 * std::cos(knee));
+  std::string text = "[[body]]\nname = \"b\"\ntask_space = \"xy\"\npose = [0.9, 0]\n";
+  for (const auto& [name, side] : {std::pair{"u", 1.0}, {"v", -1.0}})
+    text +=
+        std::string("[[chain]]\nname = \"") + name +
+        "\"\nelements = [{ joint = \"revolute\", axis = \"z\", initial = " + number(side * foot) +
+        " }, { rigid = [1, 0] }, { joint = \"revolute\", axis = \"z\", role = \"preloaded\", "
+        "initial = " +
+        number(side * knee) +
+        ", spring = { law = \"linear\", stiffness = 1, free = " + number(side * knee) +
+        " } }, { rigid = [0.6, 0] }]\n";
+  return text +
+         "[[chain]]\nname = \"g\"\nelements = [{ joint = \"prismatic\", axis = \"x\", initial = "
+         "0.9 "
+         "}, { joint = \"prismatic\", axis = \"y\", name = \"y\", role = \"preloaded\", initial = "
+         "0, "
+         "spring = { law = \"linear\", stiffness = " +
+         number(across) + ", free = " + number(off) +
+         " } }]\n[[study]]\nname = \"s\"\ncontrol = \"mixed\"\ndirection = [-1, 0]\nuntil = { "
+         "lambda = [0, 1.2] }\n";
+}
+
+TEST(Reach, IsNotTakenForTheEndBeforeABranchPointAtALargeForce) {
+  for (const double across : {120.0, 1e3, 1e5}) {
+    const auto result = run(folding_arms(across, 0)).of("s");
+    EXPECT_TRUE(complete(result)) << across;
+    const auto& branch = result.branches.front();
+    int points = 0;
+    for (const analysis::Event& event : branch.events)
+      if (event.kind == analysis::EventKind::branch_point) ++points;
+    EXPECT_EQ(points, 1) << across;
+    EXPECT_NEAR(value(result, branch.samples.size() - 1, "lambda"), 0.5, 1e-9) << across;
+  }
+}
+
+/// A little askew the curve turns aside before the fold: it has no pole.
+TEST(Reach, IsNoneOfACurveThatTurnsAsideAtALargeForce) {
+  for (const double off : {1e-4, 1e-6}) {
+    const auto result = run(folding_arms(1e3, off)).of("s");
+    const auto& branch = result.branches.front();
+    EXPECT_NE(branch.forward.reason.rfind("end of the reach: ", 0), 0u) << branch.forward.reason;
+    EXPECT_GT(std::abs(value(result, branch.samples.size() - 1, "g.y")), 0.01) << off;
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -78,5 +78,46 @@ TEST(CriticalCurve, GoesOnWhereTheStartVanishesUnderCommandsThatAreKept) {
   EXPECT_NEAR(high, 6, 1e-12);
 }
 
+/// F = W + lambda = a x - x^2 has its limit point at a^2 / 4 - W. At W = 0.4 the case has no start: the curve goes on there, and that
+/// in another parameter begins at its row.
+TEST(VanishingStarts, LetFurtherCurvesBeginAtRowsOfValuesThatHaveNoStart) {
+  const auto ran = run(R"toml(
+[parameters]
+W = 0.05
+a = 1
+[[body]]
+name = "b"
+task_space = "xy"
+pose = [0, 0]
+[[chain]]
+name = "g"
+elements = [ { joint = "prismatic", axis = "x", role = "preloaded", initial = 0, spring = { law = "polynomial", coefficients = [0, "a", -1], free = 0, falling = true } },
+  { joint = "prismatic", axis = "y", role = "preloaded", initial = 0, spring = { law = "linear", stiffness = 1, free = 0 } } ]
+[[study]]
+name = "c1"
+kind = "critical_curve"
+control = "load"
+direction = [1, 0]
+load = ["W", 0]
+until = { b.x = [-3, 3], lambda = [-3, 3] }
+mark = { W = [0.4] }
+critical_curve = { of = "LP1", parameter = "W", range = [0, 0.5] }
+[[study]]
+name = "c2"
+kind = "critical_curve"
+until = { b.x = [-3, 3], lambda = [-3, 3] }
+critical_curve = { of = "c1/UZ1", parameter = "a", range = [0.5, 2] }
+)toml");
+  const auto& result = ran.of("c2");
+  EXPECT_TRUE(complete(result));
+  const auto& samples = result.branches.at(0).samples;
+  for (const auto& sample : samples) {
+    const double a = sample.values[column(result, "a")];
+    EXPECT_NEAR(sample.values[column(result, "lambda")], a * a / 4 - 0.4, 1e-10) << a;
+  }
+  EXPECT_NEAR(samples.front().values[column(result, "a")], 0.5, 1e-12);
+  EXPECT_NEAR(samples.back().values[column(result, "a")], 2, 1e-12);
+}
+
 }  // namespace
 }  // namespace springfold::io

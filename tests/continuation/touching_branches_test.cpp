@@ -39,7 +39,6 @@ struct Touched {
 /// Along the touched branch the determinant is -k (lambda - c)^2: small on a long way, and of one sign. Where the step's middle,
 /// or a place at which its model is compared, falls beside the touch it is a matter of rounding.
 TEST(TouchingBranches, AreSeenWhereverTheStepsEnd) {
-  int seen = 0;
   for (const double k : {0.24, -0.089, -0.03, 0.0145, 0.6})
     for (int place = 0; place < 60; ++place) {
       const double c = -0.3 + 0.01 * place + 0.00137 * std::cos(7.0 * place);
@@ -55,9 +54,7 @@ TEST(TouchingBranches, AreSeenWhereverTheStepsEnd) {
       ASSERT_EQ(touches.size(), 1u) << k << ", " << c;
       EXPECT_NEAR(touches[0].point.lambda, c, 1e-7) << k;
       EXPECT_EQ(curve.hits.size(), 2u) << k << ", " << c;
-      ++seen;
     }
-  EXPECT_EQ(seen, 300);
 }
 
 /// x and y leave zero at lambda = c and at lambda = -d and d; the unknowns are turned by an angle.

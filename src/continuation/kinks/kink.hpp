@@ -101,7 +101,7 @@ inline constexpr double half_branch_rank = 10 * located_rank;
 /// @param along  tangent of the point's own piece, which is regular here although a branch point may be so near that its
 ///               equations look singular; nullptr: not known
 /// @param polished   as regular_ways() has it: a start, which was not located
-/// @param among      pieces of which ways are wanted where they are regular; nullptr: all 2^k
+/// @param among      of regular pieces the ways of these alone are kept; nullptr: of all 2^k
 Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<Index>& active,
                  double full_rank, const Direction* along = nullptr, bool polished = false,
                  const std::vector<Piece>* among = nullptr);

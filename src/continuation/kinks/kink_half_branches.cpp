@@ -16,8 +16,9 @@
 namespace springfold::continuation {
 namespace {
 
-/// Beside the curve, whose test functions are looked at on every step: all of as many springs as may rest.
-constexpr std::size_t most_pieces = std::size_t{1} << most_active;
+/// Beside the curve, whose test functions are looked at on every step: all of nine springs in motions of their own, and those of
+/// as many as may rest in a few. Each more would take three times as long.
+constexpr std::size_t most_pieces = 512;
 
 /// An eigenvalue of some piece is zero here.
 struct ZeroBeside {

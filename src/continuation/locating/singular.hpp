@@ -22,15 +22,16 @@ struct StepEvents {
   bool of_caller = false;  ///< with a doubt: it is about an event of the caller
 };
 
+/// May a branch leave along this null vector?
+using LeadsOn = std::function<bool(const CurvePoint& at, const Direction& null)>;
+
 /// Finds every zero of the tangent's lambda-component and of the eigenvalues of dF/dx between the
 /// samples of one step and puts them together: an eigenvalue and the tangent vanish at a limit
 /// point, an eigenvalue alone at a branch point, the tangent with an eigenvalue that does not change
 /// sign where the branch itself turns at a branch point; a zero without change of sign is a touch.
 /// @param arc      the step
 /// @param samples  its ends and points between them, in order; all on one piece
-/// @param leads_on  may a branch leave along this null vector? Singular points of one mode at which none does are passed over;
-///                  empty: all count
-using LeadsOn = std::function<bool(const CurvePoint& at, const Direction& null)>;
+/// @param leads_on  singular points of one mode at which it says no are passed over; empty: all count
 StepEvents singular_points(const TestedStep& arc, Samples samples, const LeadsOn& leads_on = {});
 
 /// Rates of lambda this many times their rounding have a sign beyond doubt.

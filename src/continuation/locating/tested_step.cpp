@@ -89,7 +89,7 @@ std::vector<Singularity> multiple_zeros(const TestedStep& arc, double t, double 
   return best;
 }
 
-/// Does det Sigma cross zero here in the first order, as far as to half the way to its next zero? Where m modes vanish it has a zero
+/// Does det Sigma cross zero here in the first order, as far as a third of the way to its next zero? Where m modes vanish it has a zero
 /// of order m at least: one that is as straight as this is of one mode, however small the others are.
 bool is_simple_zero(const TestedStep& arc, double at, Index m, double free) {
   constexpr double straight_at_least = 1.5,

@@ -107,13 +107,13 @@ std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
     return std::nullopt;
   // Another branch may be nearer than the curve's bend over the step: the cubic through both ends leads to its own.
   ArcModel chord;
-  auto point = chord.go_through(walker.weights, from, StepSamples(from, nullptr, to))
-                   ? point_near(walker, chord, from, along)
-                   : std::nullopt;
-  if (!point) point = point_at(walker, from, along);
-  if (!point) return std::nullopt;
-  if (!coincide(walker, *point, target)) return std::nullopt;
-  return point;
+  if (to.piece == from.piece &&
+      chord.go_through(walker.weights, from, StepSamples(from, nullptr, to))) {
+    auto point = point_near(walker, chord, from, along);
+    if (point && coincide(walker, *point, target)) return point;
+  }
+  auto point = point_at(walker, from, along);
+  return point && coincide(walker, *point, target) ? point : std::nullopt;
 }
 
 std::optional<CurvePoint> start_again(const Walker& walker, const CurvePoint& start,
