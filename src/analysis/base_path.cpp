@@ -282,6 +282,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
                                             const SpecialPoint& point, std::string& why) {
   const Hit& hit = point.hit;
   CriticalStart start = start_at(member, point);
+  if (!is_at_switching(point.kind)) start.resting = switches_at_rest(member, point);
   switch (point.kind) {
     case EventKind::limit_point:
       if (hit.kind == continuation::HitKind::limit_point) return start;

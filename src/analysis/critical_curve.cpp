@@ -218,7 +218,7 @@ class Beyond {
     CriticalCurve& curve = piece.growing;
     curve = follow_critical(curves_.family(), next, growing, events, critical_options(study_),
                             observe, further);
-    say_switching_start(curves_, growing, curve);
+    say_why_it_stops(curves_, growing, curve);
     if (next.kind == continuation::CriticalKind::surface) {
       piece.of = EventKind::corner_limit_point;
       end_at_last_reversal(curve);

@@ -10,6 +10,7 @@
 #include "other_modes.hpp"
 #include "springfold/analysis/row_memory.hpp"
 #include "springfold/core/number_text.hpp"
+#include "vanishing_lengths.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -95,11 +96,29 @@ std::optional<std::pair<double, std::string>> ending_start(const CaseCurves& cur
   return std::pair{beyond, std::move(why)};
 }
 
+/// Where a curve could not go on, or only in ever shorter steps: has a length come to zero there?
+std::optional<std::string> length_at_end(const CaseCurves& curves,
+                                         const continuation::CriticalCurve& curve) {
+  if (curve.stop != continuation::StopReason::step_too_small &&
+      curve.stop != continuation::StopReason::max_points)
+    return std::nullopt;
+  const Member* member = curves.equations_at(curve.points.back().mu);
+  if (member == nullptr) return std::nullopt;
+  continuation::Curve path;
+  for (const CriticalPoint& point : curve.points)
+    path.points.push_back(CaseCurves::point_of(point, {}));
+  return vanishing_length(*member->problem, path, path.points.back());
+}
+
 }  // namespace
 
-void say_switching_start(const CaseCurves& curves, bool growing,
-                         continuation::CriticalCurve& curve) {
-  if (curve.points.empty() || curve.stop != continuation::StopReason::step_too_small) return;
+void say_why_it_stops(const CaseCurves& curves, bool growing, continuation::CriticalCurve& curve) {
+  if (curve.points.empty()) return;
+  if (auto length = length_at_end(curves, curve)) {
+    curve.stop_detail = *std::move(length);
+    return;
+  }
+  if (curve.stop != continuation::StopReason::step_too_small) return;
   // The narrowest differences in the parameter reach as far.
   constexpr double near = 0x1p-9;
   const CriticalPoint& last = curve.points.back();
@@ -142,7 +161,7 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
                           curve.hits.front().kind == Degeneracy::two_switches;
       if (!stands) break;
     }
-    say_switching_start(curves, growing, curve);
+    say_why_it_stops(curves, growing, curve);
     return curve;
   };
   followed.growing = follow(true);

@@ -159,8 +159,7 @@ class LoadsOverParameter {
     Study within = study_;
     (sense > 0 ? within.critical.high : within.critical.low) = limit * curves_.scale();
     (sense > 0 ? within.critical.low : within.critical.high) = -sense * HUGE_VAL;
-    // Beyond its turn a curve runs back: a little of it shows what the turn is.
-    constexpr int more = 10;
+    constexpr int more = 10;  // beyond its turn, where the curve runs back: they show what it is
     int back = 0;
     const auto observe = [&](const CriticalPoint& p) {
       back += sense * p.dmu < 0 ? 1 : 0;
@@ -170,6 +169,7 @@ class LoadsOverParameter {
     side.curve = follow_critical(curves_.family(), piece.start, sense > 0,
                                  first_point_events(curves_, within, piece.start.piece),
                                  critical_options(study_), observe);
+    say_why_it_stops(curves_, sense > 0, side.curve);
     say_start_or_its_load(curves_, side.curve);
     const auto turn = std::find_if(side.curve.hits.begin(), side.curve.hits.end(),
                                    [](const CriticalHit& hit) { return ends_piece(hit.kind); });

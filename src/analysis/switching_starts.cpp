@@ -175,6 +175,14 @@ bool springs_rest(const Member& member, const SpecialPoint& point) {
          rest_along(*member.problem, hit.switches, hit.point);
 }
 
+std::vector<Index> switches_at_rest(const Member& member, const SpecialPoint& point) {
+  std::vector<Index> found;
+  const Index count = member.problem->switch_count();
+  for (Index j = 0; j < count; ++j)
+    if (rest_along(*member.problem, {j}, point.hit.point)) found.push_back(j);
+  return found;
+}
+
 std::vector<Piece> pieces_at_rest(const SpecialPoint& point) {
   const Hit& hit = point.hit;
   std::vector<Piece> pieces;

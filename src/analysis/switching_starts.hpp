@@ -25,6 +25,9 @@ std::string several_switch(const SpecialPoint& point);
 /// piece vanishes.
 bool springs_rest(const Member& member, const SpecialPoint& point);
 
+/// The switches that are zero along the path before and behind a special point, though nothing of them happens there.
+std::vector<Index> switches_at_rest(const Member& member, const SpecialPoint& point);
+
 /// Where springs rest: the pieces in which half-branches leave, or the path's own where none does.
 std::vector<Piece> pieces_at_rest(const SpecialPoint& point);
 

@@ -139,7 +139,7 @@ class Threshold {
     CriticalCurve& curve = followed.growing;
     curve = follow_critical(curves_.family(), *start, towards_ > 0, events,
                             critical_options(study_), observe);
-    say_switching_start(curves_, towards_ > 0, curve);
+    say_why_it_stops(curves_, towards_ > 0, curve);
     say_start_or_its_load(curves_, curve);
     const auto end = std::find_if(curve.hits.begin(), curve.hits.end(),
                                   [](const CriticalHit& hit) { return ends_piece(hit.kind); });

@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
 #include "case_runs.hpp"
 
 namespace springfold::io {
@@ -88,6 +93,126 @@ threshold = { of = "limit_point", parameter = "psi", range = [3.8754, 6.3754], v
   EXPECT_TRUE(result.threshold->verified);
   EXPECT_NEAR(result.threshold->value, 2.4097 + std::numbers::pi, 1e-9);
   EXPECT_TRUE(result.doubts.empty()) << result.doubts.front();
+}
+
+/// The anchor of the strut lies sqrt(x0^2 + y0^2) = 1.80594 from the foot: there an arm of that length brings its tip to it.
+TEST(FirstCriticalLoads, SayWhereTheLengthOfASpringComesToZero) {
+  const auto result = run(arm(R"toml(L = 1.874
+psi = 2.0026
+t0 = 2.5707
+ka = 0.9953
+kb = 1.1884
+kd = 0.6553
+b1 = 0.4444
+b2 = 1.2461
+x0 = -1.0908
+y0 = 1.4393
+ks = 0.4763
+fr = 0.9844
+)toml",
+                              R"toml(kind = "critical_load"
+until = { lambda = [-6.776, 6.776], arm.t = [-0.2154, 5.5846] }
+critical_load = { of = "loss_of_stability", parameter = "L", range = [1.1244, 2.811], values = 13 }
+)toml"))
+                          .of("s");
+  int told = 0;
+  for (const analysis::Branch& branch : result.branches)
+    for (const auto& stop : {branch.backward, branch.forward}) {
+      EXPECT_THAT(stop.reason, testing::Not(testing::HasSubstr("another branch may be near")));
+      if (stop.reason.find("at the length 0 its force has no direction") == std::string::npos)
+        continue;
+      ++told;
+      EXPECT_THAT(stop.reason, testing::StartsWith("the length of c has come down to"));
+    }
+  EXPECT_GT(told, 0);
+}
+
+/// Two nodes on bars to three points and a strut between them. Where the first one folds away from the second the strut is slack,
+/// and the second one rests on its own bars, at the very length of another strut: what rounding makes of that is no event.
+TEST(CriticalCurves, PassAStrutThatRestsElsewhere) {
+  const auto ran = run(R"toml(
+[parameters]
+s1 = -0.0758
+a = 0.9535
+h = 0.4262
+[[node]]
+name = "f0"
+at = ["1.1181*a", -0.1788]
+fixed = true
+[[node]]
+name = "f1"
+at = ["-0.5915*a", 0.011]
+fixed = true
+[[node]]
+name = "f2"
+at = ["-0.6231*a", 0.0606]
+fixed = true
+[[node]]
+name = "n0"
+at = [-0.071, "h"]
+[[node]]
+name = "n1"
+at = [0.5521, "h"]
+[[bar]]
+from = "f0"
+to = "n0"
+stiffness = 0.8187
+[[bar]]
+from = "f1"
+to = "n0"
+stiffness = 2.1264
+pretension = "2.1264*s1"
+[[bar]]
+from = "f2"
+to = "n0"
+stiffness = 0.5818
+pretension = 0.06847786
+[[bar]]
+from = "f0"
+to = "n1"
+stiffness = 0.6163
+[[bar]]
+from = "f1"
+to = "n1"
+stiffness = 2.6206
+[[bar]]
+from = "f2"
+to = "n1"
+stiffness = 1.4496
+compression_only = true
+[[bar]]
+from = "n0"
+to = "n1"
+stiffness = 2.7307
+compression_only = true
+[[study]]
+name = "path"
+body = "n0"
+control = "load"
+direction = ["sin(-0.4867)", "-cos(-0.4867)"]
+until = { lambda = [-2.947, 2.947], n0.y = [-2.5, 3] }
+[[study]]
+name = "s"
+kind = "critical_curve"
+body = "n0"
+control = "load"
+direction = ["sin(-0.4867)", "-cos(-0.4867)"]
+until = { lambda = [-2.947, 2.947], n0.y = [-2.5, 3] }
+critical_curve = { of = "LP2", parameter = "s1", range = [-0.1958, 0.0742] }
+)toml");
+  const auto& result = ran.of("s");
+  EXPECT_TRUE(complete(result));
+  const auto& samples = result.branches.at(0).samples;
+  EXPECT_NEAR(samples.front().values.back(), -0.1958, 1e-12);
+  EXPECT_NEAR(samples.back().values.back(), 0.0742, 1e-12);
+  std::vector<double> loads;
+  for (const auto& event : ran.of("path").branches.at(0).events)
+    if (event.label == "LP2") loads.push_back(value(ran.of("path"), event.row, "lambda"));
+  ASSERT_EQ(loads.size(), 1u);
+  const auto own = std::ranges::find_if(
+      samples, [](const auto& sample) { return std::abs(sample.values.back() + 0.0758) < 1e-12; });
+  ASSERT_NE(own, samples.end());
+  EXPECT_NEAR(own->values[column(result, "lambda")], loads[0], 1e-10);
 }
 
 }  // namespace
