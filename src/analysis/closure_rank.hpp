@@ -61,6 +61,11 @@ struct StretchedChains {
   bool has_grown = false;  ///< the former
 };
 
+/// What is said of a curve that ends there.
+inline std::string end_of_reach(const StretchedChains& legs) {
+  return "end of the reach: " + legs.text;
+}
+
 /// @returns nothing where there is none
 std::optional<StretchedChains> stretched_chains(const PathProblem& problem,
                                                 const EndOfCurve& curve);

@@ -85,11 +85,8 @@ class Grower {
     };
     grown_.diagram = trace_diagram(asked_, grown_.starts, events_, options_, observe);
     for (continuation::Branch& branch : grown_.diagram.branches)
-      if (std::any_of(away.begin(), away.end(), [&](const CurvePoint& p) {
-            return branch.curve.stop == continuation::StopReason::observer &&
-                   p.lambda == branch.curve.points.back().lambda &&
-                   p.x == branch.curve.points.back().x;
-          }))
+      if (std::any_of(away.begin(), away.end(),
+                      [&](const CurvePoint& p) { return was_ended_at(branch.curve, p); }))
         end_without_bound(branch.curve);
     for (continuation::Branch& branch : grown_.diagram.branches)
       forces.end(branch.curve, options_.trace);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "closure_rank.hpp"
+#include "lambda_crawl.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/continuation/verification.hpp"
@@ -112,12 +113,14 @@ std::optional<CurvePoint> nearer(const PathProblem& problem, const CurvePoint& e
 }
 
 struct Approach {
-  CurvePoint before{}, at{};         ///< the last two points
-  std::vector<CurvePoint> passed{};  ///< all of them, in order
+  std::vector<CurvePoint> points{};  ///< the two that it begins with, and each one nearer
   bool has_grown = false;            ///< wrenches, a hundredfold
   bool switches = false;             ///< a spring does, before the zero
   bool is_pole =
       false;  ///< up to the last point wrenches grow as the inverse of the way that is left
+
+  const CurvePoint& before() const { return points[points.size() - 2]; }
+  CurvePoint& at() { return points.back(); }
 };
 
 /// Solved points, each nearer to the zero of 1/w.
@@ -128,21 +131,20 @@ Approach approach(const PathProblem& problem, const CurvePoint& earlier, const C
   constexpr double certain_growth = 1e2;
   // Of w times the way that is left from one point to the next: beside a pole it stays, at a finite peak it is lost.
   constexpr double same_inverse = 1.25;
-  Approach to{earlier, last, {}};
+  Approach to{{earlier, last}};
   const double grown = certain_growth * wrenches_of(problem, last.x).norm();
   double inverse = 0;
   for (int i = 0; i < most_points; ++i) {
-    const auto left = way_left(problem, to.before, to.at);
+    const auto left = way_left(problem, to.before(), to.at());
     const double earlier_inverse = inverse;
-    inverse = left ? *left * wrenches_of(problem, to.at.x).norm() : 0;
+    inverse = left ? *left * wrenches_of(problem, to.at().x).norm() : 0;
     to.is_pole =
         inverse < same_inverse * earlier_inverse && earlier_inverse < same_inverse * inverse;
     if (!left || *left <= continuation::promised_place) break;
-    auto next = nearer(problem, to.before, to.at, *left, to.switches);
+    auto next = nearer(problem, to.before(), to.at(), *left, to.switches);
     if (!next) break;
-    to.passed.push_back(*next);
     to.has_grown = to.has_grown || wrenches_of(problem, next->x).norm() >= grown;
-    to.before = std::exchange(to.at, *std::move(next));
+    to.points.push_back(*std::move(next));
   }
   return to;
 }
@@ -159,15 +161,13 @@ void complete_point(const PathProblem& problem, const CurvePoint& earlier, Curve
 
 /// Does the way to the pole look as if nothing happened on it? Numbers of negative eigenvalues and the sense of lambda are those
 /// of its first point all along. Where rounding decides on them the curve is traced on.
-bool goes_straight_on(const PathProblem& problem, const CurvePoint& before, CurvePoint first,
-                      std::vector<CurvePoint> passed) {
-  complete_point(problem, before, first);
-  const CurvePoint* last = &first;
-  for (CurvePoint& point : passed) {
-    complete_point(problem, *last, point);
-    if (point.negative != first.negative || point.tangent.dlambda * first.tangent.dlambda <= 0)
+bool goes_straight_on(const PathProblem& problem, std::vector<CurvePoint>& points) {
+  const CurvePoint& first = points[1];
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    complete_point(problem, points[i - 1], points[i]);
+    if (points[i].negative != first.negative ||
+        points[i].tangent.dlambda * first.tangent.dlambda <= 0)
       return false;
-    last = &point;
   }
   return true;
 }
@@ -179,8 +179,8 @@ std::optional<CurvePoint> beside_infinite_force(const PathProblem& problem,
   if (earlier.piece != last.piece || !(last.s > earlier.s)) return std::nullopt;
   Approach to = approach(problem, earlier, last);
   if (!to.has_grown || to.switches) return std::nullopt;
-  complete_point(problem, to.before, to.at);
-  return std::move(to.at);
+  complete_point(problem, to.before(), to.at());
+  return std::move(to.at());
 }
 
 bool is_solved_on_side_of(const PathProblem& problem, const CurvePoint& point,
@@ -247,7 +247,7 @@ bool InfiniteForceWatch::ends_behind(const CurvePoint& before, const CurvePoint&
   if (!left || *left > steps_ahead * (point.s - before.s)) return false;
   constexpr double next_time = 4;
   Approach to = approach(problem_, before, point);
-  EndOfCurve end{to.at, point, {}};
+  EndOfCurve end{to.at(), point, {}};
   for (const CurvePoint& p : far_) end.far.push_back(&p);
   const bool is_pole = to.has_grown && to.is_pole && !to.switches;
   const auto legs = is_pole ? stretched_chains(problem_, end) : std::nullopt;
@@ -255,19 +255,15 @@ bool InfiniteForceWatch::ends_behind(const CurvePoint& before, const CurvePoint&
     asked_at_ = next_time * force;
     return false;
   }
-  complete_point(problem_, to.before, to.at);
-  if (meets_event(point, to.at) || !goes_straight_on(problem_, before, point, to.passed))
-    return false;
-  ends_.push_back({point, std::move(to.at), "end of the reach: " + legs->text});
+  if (!goes_straight_on(problem_, to.points) || meets_event(point, to.at())) return false;
+  ends_.push_back({point, std::move(to.at()), end_of_reach(*legs)});
   return true;
 }
 
 void InfiniteForceWatch::end(continuation::Curve& curve,
                              const continuation::TraceOptions& options) const {
-  if (curve.stop != continuation::StopReason::observer) return;
-  const CurvePoint& last = curve.points.back();
   for (const End& end : ends_)
-    if (end.seen.lambda == last.lambda && end.seen.x == last.x) {
+    if (was_ended_at(curve, end.seen)) {
       if (options.verify_arcs && !curve.arcs.empty())
         curve.arcs = verified_arcs(problem_, curve, options);
       curve.points.push_back(end.at);

@@ -33,6 +33,12 @@ inline bool was_ended(const continuation::Curve& curve) {
          curve.stop == continuation::StopReason::pole;
 }
 
+/// At this point, which it saw?
+inline bool was_ended_at(const continuation::Curve& curve, const continuation::CurvePoint& seen) {
+  return curve.stop == continuation::StopReason::observer &&
+         seen.lambda == curve.points.back().lambda && seen.x == curve.points.back().x;
+}
+
 /// The observer of this curve ended it there.
 inline void end_without_bound(continuation::Curve& curve) {
   curve.stop = continuation::StopReason::unbounded;

@@ -31,7 +31,7 @@ Stop explained(Stop stop, const EndOfCurve& at, const Curve& curve, const PathPr
     stop.reason += "; " + *why;
   else if (const auto legs = stretched_chains(problem, at))
     stop = legs->is_end_of_reach || curve.stop == StopReason::unbounded
-               ? Stop{"end of the reach: " + legs->text, true}
+               ? Stop{end_of_reach(*legs), true}
                : Stop{stop.reason + "; " + legs->text, false};
   else if (const auto names = neutral_motion(problem, end))
     stop.reason += "; nothing resists a motion of " + *names + " there";
@@ -63,7 +63,7 @@ std::optional<EndOfReach> reach_behind(const PathProblem& problem, const Curve& 
     at.far.push_back(&curve.points[quarter * count / 4]);
   const auto legs = stretched_chains(problem, at);
   if (!legs || !(last ? legs->is_end_of_reach : legs->has_grown)) return std::nullopt;
-  return EndOfReach{std::move(last), "end of the reach: " + legs->text};
+  return EndOfReach{std::move(last), end_of_reach(*legs)};
 }
 
 }  // namespace

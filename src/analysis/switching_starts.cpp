@@ -177,9 +177,12 @@ bool springs_rest(const Member& member, const SpecialPoint& point) {
 
 std::vector<Index> switches_at_rest(const Member& member, const SpecialPoint& point) {
   std::vector<Index> found;
-  const Index count = member.problem->switch_count();
-  for (Index j = 0; j < count; ++j)
-    if (rest_along(*member.problem, {j}, point.hit.point)) found.push_back(j);
+  const CurvePoint& at = point.hit.point;
+  Vector g;
+  if (!member.problem->switches(at.x, at.lambda, g)) return found;
+  for (Index j = 0; j < g.size(); ++j)
+    if (std::abs(g[j]) <= zero_switch_there && rest_along(*member.problem, {j}, at))
+      found.push_back(j);
   return found;
 }
 
