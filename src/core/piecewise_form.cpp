@@ -78,7 +78,9 @@ double value_of(const PiecewiseForm& form, const Vector& v) {
 class Pieces {
  public:
   explicit Pieces(const PiecewiseForm& form)
-      : form_{form}, inverse_(inverse_root(generic_metric(form.H.rows()))) {}
+      : form_{form},
+        inverse_(inverse_root(generic_metric(form.H.rows()))),
+        all_have_room_{all_cones_have_room(form.directions)} {}
 
   void look_at(unsigned pattern, FormJudgement& result) {
     const Index k = form_.directions.rows();
@@ -98,7 +100,7 @@ class Pieces {
       const Vector v = inverse_ * eigen.vectors.col(i);
       result.least = std::min({result.least, value_of(form_, v), value_of(form_, -v)});
     }
-    if (k > 0 && !inside_cone(sides)) return;
+    if (k > 0 && !all_have_room_ && !inside_cone(sides)) return;
     result.fewest = seen_ ? std::min(result.fewest, negative) : negative;
     result.most = std::max(result.most, negative);
     seen_ = true;
@@ -107,6 +109,7 @@ class Pieces {
  private:
   const PiecewiseForm& form_;
   Matrix inverse_;  ///< of the square root of the metric
+  bool all_have_room_;
   bool seen_ = false;
 };
 
@@ -162,6 +165,17 @@ std::optional<Vector> inside_cone(const Matrix& rows) {
   const double size = v.norm();
   if (!(size > narrow) || !((unit * v).minCoeff() > narrow * size)) return std::nullopt;
   return v / size;
+}
+
+bool all_cones_have_room(const Matrix& rows) {
+  if (rows.cols() == 0) return false;
+  const Matrix unit = unit_rows(rows);
+  const Index k = unit.rows();
+  if (k == 0) return true;
+  if (k > rows.cols()) return false;
+  // v with unit v = s has a length of at most |s| / least singular value, and |s|^2 = k.
+  const Vector values = jacobi_svd(unit).values;
+  return values[k - 1] > narrow * std::sqrt(static_cast<double>(k));
 }
 
 bool is_subspace(const Matrix& rows) {

@@ -1,6 +1,8 @@
 // What does not fit together is refused where it enters.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -74,9 +76,57 @@ TEST(EntryChecks, AnEmptyRayIsRefused) {
 }
 
 TEST(EntryChecks, OptionsThatCannotBeUsedAreRefused) {
-  TraceOptions options;
-  options.step.maximum = -1;
-  EXPECT_THROW(trace(OneSidedModes{}, zero_vector, 0, ray_up, {}, options), std::invalid_argument);
+  const double infinite = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  std::vector<TraceOptions> wrong(8);
+  wrong[0].step.maximum = -1;
+  wrong[1].step.maximum = infinite;
+  wrong[2].step.aim = 2;
+  wrong[3].step.turn = 4;
+  wrong[4].location_tolerance = -1;
+  wrong[5].location_tolerance = nan;
+  wrong[6].simultaneous = nan;
+  wrong[7].simultaneous = -1;
+  for (const TraceOptions& options : wrong) {
+    EXPECT_EQ(problems_in(options).size(), 1U);
+    EXPECT_THROW(trace(OneSidedModes{}, zero_vector, 0, ray_up, {}, options),
+                 std::invalid_argument);
+  }
+}
+
+TEST(EntryChecks, OptionsOfADiagramThatCannotBeUsedAreRefused) {
+  std::vector<DiagramOptions> wrong(5);
+  wrong[0].maximum_depth = -1;
+  wrong[1].maximum_branches = -1;
+  wrong[2].same_place = -1;
+  wrong[3].same_place = std::nan("");
+  wrong[4].trace.maximum_points = 0;
+  for (const DiagramOptions& options : wrong)
+    EXPECT_THROW(trace_diagram(OneSidedModes{}, {{zero_vector, 0, above({true})}}, {}, options),
+                 std::invalid_argument);
+}
+
+/// A unit circle whose residual, or matrix, has another size from lambda = 0.9 on.
+struct GrowingCircle {
+  Index more_rows = 0, more_columns = 0;
+  static Index size() { return 1; }
+  bool residual(const Vector& x, double l, Vector& F) const {
+    F = Vector::Constant(l > 0.9 ? 1 + more_rows : 1, x[0] * x[0] + l * l - 1);
+    return true;
+  }
+  bool derivatives(const Vector& x, double l, Matrix& J, Vector& by_l) const {
+    J = Matrix::Constant(1, l > 0.9 ? 1 + more_columns : 1, 2 * x[0]);
+    by_l = Vector::Constant(1, 2 * l);
+    return true;
+  }
+};
+
+TEST(EntryChecks, AProblemThatChangesItsSizesOnTheWayIsRefused) {
+  const Vector x{{0.8}};
+  const Ray ray{{}, {Vector{{-0.6}}, 0.8}};
+  for (const auto& problem : {GrowingCircle{.more_rows = 1}, GrowingCircle{.more_rows = -1},
+                              GrowingCircle{.more_columns = 1}})
+    EXPECT_THROW(trace(problem, x, 0.6, ray, {}, {}), std::invalid_argument);
+  EXPECT_EQ(trace(GrowingCircle{}, x, 0.6, ray, {}, {}).stop, StopReason::closed);
 }
 
 struct WrongMetric : OneSidedModes {

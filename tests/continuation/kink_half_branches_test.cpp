@@ -169,10 +169,10 @@ TEST(HalfBranches, AreTheSameInTheOtherDirection) {
   }
 }
 
-TEST(HalfBranches, AreFoundInAllPiecesOfNineSwitches) {
-  // nine springs in nine motions of their own: 512 pieces, all with room beside the branch
-  const OneSidedModes problem{9, Vector::LinSpaced(9, 1.0, 1.8), Vector::Constant(9, 0.5), 0};
-  const Curve curve = follow_straight(problem, Piece(9, 1), 1.15);
+TEST(HalfBranches, AreFoundInAllPiecesOfTenSwitches) {
+  // ten springs in ten motions of their own: 1,024 pieces, all with room beside the branch
+  const OneSidedModes problem{10, Vector::LinSpaced(10, 1.0, 1.9), Vector::Constant(10, 0.5), 0};
+  const Curve curve = follow_straight(problem, Piece(10, 1), 1.15);
   EXPECT_EQ(curve.stop, StopReason::event);
   EXPECT_TRUE(hits_of(curve, HitKind::unresolved).empty());
   // Without its spring a motion goes at 1.0, 1.1, ..., to one side.

@@ -27,6 +27,9 @@ struct DiagramOptions {
   std::function<bool(const CurvePoint&)> outside{};
 };
 
+/// Every rule the options break, as sentences a user can act on; empty when usable.
+std::vector<std::string> problems_in(const DiagramOptions& options);
+
 /// One way to leave a special point.
 struct Way {
   CurvePoint point{};  ///< the special point with the way's outward tangent and its piece
@@ -105,7 +108,7 @@ struct DiagramStart {
 ///
 /// Nothing is claimed about branches that are not connected to the starts: search.hpp looks for some.
 /// @pre each start satisfies F = 0 to the residual tolerance
-/// @throws std::invalid_argument as trace() does
+/// @throws std::invalid_argument as trace() does, and where problems_in(options) is not empty
 Diagram trace_diagram(ProblemView problem, const std::vector<DiagramStart>& starts,
                       const std::vector<Event>& events, const DiagramOptions& options,
                       const StepObserver& observer = {});

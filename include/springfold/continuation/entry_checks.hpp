@@ -2,6 +2,7 @@
 #pragma once
 
 #include "springfold/continuation/curve.hpp"
+#include "springfold/continuation/diagram.hpp"
 #include "springfold/continuation/options.hpp"
 #include "springfold/continuation/problem.hpp"
 #include "springfold/continuation/ray.hpp"
@@ -22,6 +23,10 @@ void check_point(ProblemView problem, const Vector& x, double lambda, const Piec
 /// @throws std::invalid_argument
 void check_search(ProblemView problem, double lambda, const std::vector<Vector>& known,
                   const SearchOptions& options);
+
+/// Options of a diagram that can be used.
+/// @throws std::invalid_argument
+void check_diagram(const DiagramOptions& options);
 
 /// The same of a curve that was traced before: its points have as many unknowns as the problem.
 /// @throws std::invalid_argument

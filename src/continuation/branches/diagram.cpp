@@ -10,6 +10,7 @@
 
 #include "continuation/branches/junction_ways.hpp"
 #include "continuation/branches/known_junctions.hpp"
+#include "continuation/branches/piece_before.hpp"
 #include "continuation/kinks/beside.hpp"
 #include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
@@ -29,13 +30,6 @@ struct Task {
   CurvePoint from{};
   int depth = 0;
   int kink = -1;  ///< junction of an ordinary kink at a start, of which this is way number `way`
-};
-
-/// What a trace begins with.
-struct Begin {
-  CurvePoint from{};
-  Ray ray{};
-  bool attached = true;  ///< nothing is left out between the junction and `from`
 };
 
 class Tracer {
@@ -60,7 +54,8 @@ class Tracer {
   void queue_ways(int junction);
   bool at_hit(const Hit& hit, bool ends = false);
   bool ends_at_once(const Task& task, Curve& curve);
-  Begin begin_of(const Task& task);
+  std::optional<Curve> end_of(PieceBefore& piece);
+  void note_junctions(std::size_t first_met, std::vector<Hit>& hits) const;
   bool is_wanted(const Task& task);
   void follow(const Task& task);
   /// The two curves that leave a start count as one branch.
@@ -217,23 +212,30 @@ bool Tracer::ends_at_once(const Task& task, Curve& curve) {
   return !reason.empty();
 }
 
-/// Where the trace along a way begins: a little away from its junction, unless the curve in between is known.
-Begin Tracer::begin_of(const Task& task) {
-  Begin begin{.from = task.from,
-              .ray = {task.from.piece, task.from.tangent, {}, {}, {}},
-              .attached = task.junction < 0};
-  if (begin.attached) return begin;
-  const Way& way = way_of(task);
-  begin.attached = way.beyond && opening_of(walker_, way.point, *way.beyond);
-  if (begin.attached) {
-    begin.from = way.point;
-    begin.ray = {way.point.piece, way.point.tangent, {}, {}, way.beyond};
-    return begin;
+/// The special points of a piece between a junction and the first point of the trace are met as those of the trace are.
+/// @returns the whole branch, if it ends at one of them
+std::optional<Curve> Tracer::end_of(PieceBefore& piece) {
+  for (std::size_t i = 0; i < piece.hits.size(); ++i) {
+    const bool stops = piece.hits[i].stops;
+    if (!stops && at_hit(piece.hits[i])) continue;
+    Curve curve =
+        springfold::continuation::end_at(piece, i, stops ? StopReason::event : StopReason::joined);
+    note_junctions(0, curve.hits);
+    return curve;
   }
-  const double gap = length_of(walker_, between(walker_, at(task.junction).point, task.from));
-  if (gap > 0) begin.ray.start = task.from;
-  if (gap > 0) begin.ray.start->s = gap;
-  return begin;
+  note_junctions(0, piece.hits);
+  return std::nullopt;
+}
+
+/// Which junctions these special points are, among those met from number `first_met` on.
+void Tracer::note_junctions(std::size_t first_met, std::vector<Hit>& hits) const {
+  for (Hit& hit : hits)
+    for (std::size_t i = first_met; i < met_.size(); ++i)
+      if (met_[i].s == hit.point.s && is_junction(hit)) {
+        hit.junction = met_[i].junction;
+        hit.way_back = met_[i].way_back;
+        hit.way_on = met_[i].way_on;
+      }
 }
 
 /// May the way be followed, or does a branch run along it already, or are there enough?
@@ -269,7 +271,22 @@ void Tracer::follow(const Task& task) {
   diagram_.branches.push_back(
       {.start = task.start, .junction = task.junction, .depth = task.depth});
   if (ends_at_once(task, diagram_.branches.back().curve)) return;
-  const Begin begin = begin_of(task);
+  Begin begin{.from = task.from, .ray = {task.from.piece, task.from.tangent, {}, {}, {}}};
+  PieceBefore before;
+  if (task.junction >= 0) {
+    const CurvePoint junction = at(task.junction).point;
+    const Way way = way_of(task);
+    begin = begin_along(walker_, junction, way);
+    if (!begin.attached) before = piece_before(walker_, events_, options_, junction, way);
+    if (!before.reached)
+      doubt(DoubtKind::not_attached, "a branch could not be traced back to its branch point",
+            junction, task.junction);
+    if (auto whole = end_of(before)) {
+      diagram_.branches[static_cast<std::size_t>(current_)].curve = std::move(*whole);
+      return;
+    }
+  }
+  const std::size_t met_before = met_.size();
   Curve curve = trace_in_own_units(
       walker_.problem, begin.from.x, begin.from.lambda, begin.ray, events_, options_.trace,
       observer_, [this](const Hit& hit) { return at_hit(hit); }, IfInterrupted::keep);
@@ -277,20 +294,10 @@ void Tracer::follow(const Task& task) {
   if (curve.stop == StopReason::several_ways && options_.through_kinks && !curve.hits.empty() &&
       curve.hits.back().kind == HitKind::branching_kink)
     at_hit(curve.hits.back(), true);
-  for (Hit& hit : curve.hits)
-    for (const Met& met : met_)
-      if (met.s == hit.point.s && is_junction(hit)) {
-        hit.junction = met.junction;
-        hit.way_back = met.way_back;
-        hit.way_on = met.way_on;
-      }
-  Curve& traced = diagram_.branches[static_cast<std::size_t>(current_)].curve = std::move(curve);
+  note_junctions(met_before, curve.hits);
+  if (!begin.attached && before.reached) prepend(way_of(task).point, std::move(before), curve);
+  diagram_.branches[static_cast<std::size_t>(current_)].curve = std::move(curve);
   note_early_end();
-  if (begin.attached) return;
-  const Junction& junction = at(task.junction);
-  if (!attach_to_junction(walker_, options_, junction.point, way_of(task), traced))
-    doubt(DoubtKind::not_attached, "a branch could not be traced back to its branch point",
-          junction.point, task.junction);
 }
 
 /// A branch that ended where nothing asked it to is a doubt.
@@ -352,9 +359,8 @@ Diagram Tracer::take() {
           {DoubtKind::bounds, std::to_string(count) + " branches were not traced: " + why});
   };
   say(diagram_.not_followed, "bounds of depth or number reached");
-  const auto waiting = static_cast<int>(queue_.size());
-  say(waiting, "interrupted");
-  diagram_.not_followed += waiting;
+  say(static_cast<int>(queue_.size()), "interrupted");
+  diagram_.not_followed += static_cast<int>(queue_.size());
   return std::move(diagram_);
 }
 
@@ -373,6 +379,7 @@ Diagram trace_diagram(ProblemView problem, const std::vector<DiagramStart>& star
                       const std::vector<Event>& events, const DiagramOptions& options,
                       const StepObserver& observer) {
   if (starts.empty()) return {};
+  check_diagram(options);
   check_events(events);
   try {
     for (const DiagramStart& start : starts)

@@ -1,5 +1,4 @@
-// All ways out of a junction, with places at which traces along them may begin, and the piece between the junction and such
-// a place. Private to the engine.
+// All ways out of a junction, with places at which traces along them may begin. Private to the engine.
 #pragma once
 
 #include "continuation/points/step.hpp"
@@ -18,11 +17,5 @@ bool is_one_curve(const Rays& rays);
 /// start before the next switching surface.
 void find_ways(const Walker& walker, const DiagramOptions& options, const Hit& hit,
                Junction& junction);
-
-/// Puts the junction itself before the first point of a curve that begins beside it. The piece in
-/// between is traced back: it must lead to the junction without passing anything else.
-/// @returns false where it does not; the curve is then as it was
-bool attach_to_junction(const Walker& walker, const DiagramOptions& options,
-                        const CurvePoint& junction, const Way& way, Curve& curve);
 
 }  // namespace springfold::continuation

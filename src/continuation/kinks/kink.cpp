@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/reduced_equation.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/points/coincide.hpp"
@@ -165,6 +166,15 @@ void sort_by_piece(const std::vector<Index>& active, std::vector<Ray>& rays) {
   std::stable_sort(rays.begin(), rays.end(), before);
 }
 
+/// Has the piece surely one curve through the point? At less cost than its decomposition. false: not known
+bool is_surely_regular(const Walker& walker, const CurvePoint& at, double full_rank) {
+  constexpr double safely = 10;
+  Linearisation linear;
+  return at.tangent.dx.size() == at.x.size() &&
+         linearise(walker.problem, at.x, at.lambda, at.piece, linear) &&
+         !is_singular(extended_matrix(linear, walker.weights, at.tangent), safely * full_rank);
+}
+
 }  // namespace
 
 bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where) {
@@ -201,6 +211,8 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
   };
   for (unsigned pattern = 0; pattern < (1u << active.size()); ++pattern) {
     ray.piece = piece_of(at.piece, active, pattern);
+    const bool is_asked = !among || std::ranges::find(*among, ray.piece) != among->end();
+    if (!is_asked && is_surely_regular(walker, ray, full_rank)) continue;
     const bool arrives = along && ray.piece == at.piece;
     PieceWays ways = arrives ? both_ways(*along) : regular_ways(walker, ray, full_rank, polished);
     if (along && active.size() == 1 && !ways.list.empty()) {
@@ -215,7 +227,7 @@ Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<I
       }
     }
     if (ways.singular) singular.push_back(pattern);
-    if (ways.singular || !among || std::ranges::find(*among, ray.piece) != among->end()) add(ways);
+    if (ways.singular || is_asked) add(ways);
   }
   if (active.empty() && !singular.empty())
     add_doubt("more than one curve, or none, passes through this point", rays);

@@ -16,10 +16,6 @@
 namespace springfold::continuation {
 namespace {
 
-/// Beside the curve, whose test functions are looked at on every step: all of nine springs in motions of their own, and those of
-/// as many as may rest in a few. Each more would take three times as long.
-constexpr std::size_t most_pieces = 512;
-
 /// An eigenvalue of some piece is zero here.
 struct ZeroBeside {
   Hit hit{};
@@ -75,35 +71,36 @@ std::optional<Matrix> admitted_directions(const Walker& walker, const CurvePoint
 class PiecesBeside {
  public:
   PiecesBeside(std::optional<Matrix> directions, const std::vector<Index>& resting)
-      : directions_{std::move(directions)}, resting_{resting} {}
+      : directions_{std::move(directions)},
+        resting_{resting},
+        all_have_room_{!directions_ || all_cones_have_room(*directions_)} {}
 
-  /// @returns nothing for more than `most_pieces`
+  /// @returns nothing for more than `most_active` switches
   std::optional<std::vector<Piece>> of(const Piece& own) {
     Piece piece = own;
-    if (resting_.size() > most_active || !grow(0, piece)) return std::nullopt;
+    if (resting_.size() > most_active) return std::nullopt;
+    grow(0, piece);
     std::erase(pieces_, own);
     return pieces_;
   }
 
  private:
-  bool grow(std::size_t k, Piece& piece) {
+  void grow(std::size_t k, Piece& piece) {
     if (k == resting_.size()) {
       pieces_.push_back(piece);
-      return pieces_.size() <= most_pieces;
+      return;
     }
     auto& side = piece[static_cast<std::size_t>(resting_[k])];
     const auto own = side;
-    bool few = true;
     for (const int sign : {1, -1}) {
       side = static_cast<std::int8_t>(sign * (own > 0 ? 1 : -1));
-      few = few && (!has_room(k + 1, piece) || grow(k + 1, piece));
+      if (has_room(k + 1, piece)) grow(k + 1, piece);
     }
     side = own;
-    return few;
   }
 
   bool has_room(std::size_t count, const Piece& piece) const {
-    if (!directions_) return true;
+    if (all_have_room_) return true;
     Matrix sides = directions_->topRows(static_cast<Index>(count));
     for (std::size_t k = 0; k < count; ++k)
       sides.row(static_cast<Index>(k)) *= piece[static_cast<std::size_t>(resting_[k])];
@@ -112,6 +109,7 @@ class PiecesBeside {
 
   std::optional<Matrix> directions_;
   const std::vector<Index>& resting_;
+  bool all_have_room_;
   std::vector<Piece> pieces_{};
 };
 

@@ -262,13 +262,19 @@ Hit hit_of(const TestedStep& arc, Candidate candidate) {
   return hit;
 }
 
+/// Is one mode weak there, and the next one far from it, and from zero? (The entries of E are of order one.)
+bool is_of_one_mode(const ExtendedMatrix& E) {
+  const Vector least = least_singular_values(E, 2);
+  return least.size() < 2 || (least[1] > told_apart && least[0] <= negligible_share * least[1]);
+}
+
 /// Takes out the zeros of one mode whose branch does not lead on.
 std::size_t pass_over(const TestedStep& arc, const LeadsOn& leads_on, TestedZeros& singular) {
-  if (!leads_on || singular.order > 1) return 0;
+  if (!leads_on) return 0;
   return std::erase_if(singular.zeros, [&](const ZeroOf& zero) {
     const auto& point = arc.point(zero.at);
     const auto E = point ? arc.matrix(*point) : std::nullopt;
-    if (!E) return false;
+    if (!E || (singular.order > 1 && !is_of_one_mode(*E))) return false;
     const Vector null = weakest_borders(*E).C.col(0);
     const Index n = null.size() - 1;
     return !leads_on(*point, {null.head(n), null[n]});

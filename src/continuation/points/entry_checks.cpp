@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace springfold::continuation {
@@ -61,18 +62,38 @@ void check_evaluation(ProblemView problem, const Vector& x, double lambda, const
 std::vector<std::string> problems_in(const TraceOptions& options) {
   std::vector<std::string> problems;
   const StepOptions& step = options.step;
-  if (!(0 < step.minimum && step.minimum <= step.initial && step.initial <= step.maximum))
-    problems.push_back("step: need 0 < minimum <= initial <= maximum");
+  if (!(0 < step.minimum && step.minimum <= step.initial && step.initial <= step.maximum &&
+        std::isfinite(step.maximum)))
+    problems.push_back("step: need 0 < minimum <= initial <= maximum, all finite");
   if (!(step.contraction > 0 && step.turn > 0 && step.deviation > 0 && step.aim > 0))
     problems.push_back("step: contraction, turn, deviation and aim must be positive");
+  if (!(step.turn < std::numbers::pi)) problems.push_back("step.turn: must be below pi [rad]");
+  if (!(step.aim < 1)) problems.push_back("step.aim: must be below 1, a fraction of the limits");
   if (!(step.growth > 1)) problems.push_back("step.growth: must be greater than 1");
   if (!(options.newton.residual_tolerance > 0))
     problems.push_back("newton.residual_tolerance: must be positive");
+  if (!(options.location_tolerance > 0 && options.location_tolerance < 1))
+    problems.push_back("location_tolerance: must be between 0 and 1");
+  if (!(options.simultaneous >= 0 && std::isfinite(options.simultaneous)))
+    problems.push_back("simultaneous: must not be negative");
   if (options.newton.maximum_iterations < 1)
     problems.push_back("newton.maximum_iterations: must be at least 1");
   if (options.maximum_points < 2)
     problems.push_back("maximum_points: a curve needs at least 2 points");
   return problems;
+}
+
+std::vector<std::string> problems_in(const DiagramOptions& options) {
+  std::vector<std::string> problems = problems_in(options.trace);
+  if (options.maximum_branches < 0 || options.maximum_depth < 0)
+    problems.push_back("maximum_branches and maximum_depth: must not be negative");
+  if (!(options.same_place > 0 && std::isfinite(options.same_place)))
+    problems.push_back("same_place: must be positive");
+  return problems;
+}
+
+void check_diagram(const DiagramOptions& options) {
+  for (const std::string& wrong : problems_in(options)) refuse(wrong);
 }
 
 void check_entry(ProblemView problem, const Vector& x, double lambda, const Piece& piece,

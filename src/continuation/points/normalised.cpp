@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/scaling.hpp"
@@ -14,6 +16,13 @@ namespace {
 double unit_of(double weight) {
   if (!(weight > 0) || !std::isfinite(weight)) return 1;
   return std::ldexp(1, -static_cast<int>(std::floor(0.5 * std::ilogb(weight))));
+}
+
+/// A problem that changes the sizes of what it gives would have the engine read beyond their ends.
+void expect_size(Index found, Index needed, const char* what) {
+  if (found != needed)
+    throw std::invalid_argument(std::string(what) + " has size " + std::to_string(found) +
+                                " in the middle of a curve, needed: " + std::to_string(needed));
 }
 
 /// How far beside the start the equations are looked at as well: at the start itself all their
@@ -99,6 +108,7 @@ void Normalised::scale_switches(const Vector& x, double lambda) {
 bool Normalised::residual(const Vector& y, double lambda, const Piece& piece, Vector& G) const {
   x_ = y.cwiseProduct(unit_);
   if (!problem_.residual(x_, lambda, piece, G)) return false;
+  expect_size(G.size(), force_.size(), "the residual");
   G.array() *= force_.array();
   return true;
 }
@@ -115,6 +125,7 @@ bool Normalised::equations(const Vector& y, double lambda, const Piece& piece, V
                            Matrix& dG_dy, Vector& dG_dlambda) const {
   x_ = y.cwiseProduct(unit_);
   if (!problem_.equations(x_, lambda, piece, G, dG_dy, dG_dlambda)) return false;
+  expect_size(G.size(), force_.size(), "the residual");
   G.array() *= force_.array();
   scale(dG_dy, dG_dlambda);
   return true;
@@ -122,6 +133,9 @@ bool Normalised::equations(const Vector& y, double lambda, const Piece& piece, V
 
 void Normalised::scale(Matrix& dG_dy, Vector& dG_dlambda) const {
   const Index n = unit_.size();
+  expect_size(dG_dy.rows(), n, "dF_dx (rows)");
+  expect_size(dG_dy.cols(), n, "dF_dx (columns)");
+  expect_size(dG_dlambda.size(), n, "dF_dlambda");
   const double* __restrict const force = force_.data();
   for (Index j = 0; j < n; ++j) {
     double* __restrict const column = dG_dy.col(j).data();
@@ -136,6 +150,7 @@ bool Normalised::structured_derivatives(const Vector& y, double lambda, const Pi
   x_ = y.cwiseProduct(unit_);
   if (!problem_.structured_derivatives(x_, lambda, piece, matrices_.next(), dG_dlambda))
     return false;
+  expect_size(dG_dlambda.size(), unit_.size(), "dF_dlambda");
   matrices_.put(force_, unit_, dG_dy);
   dG_dlambda.array() *= force_.array();
   return true;
@@ -144,6 +159,7 @@ bool Normalised::structured_derivatives(const Vector& y, double lambda, const Pi
 bool Normalised::switches(const Vector& y, double lambda, Vector& h) const {
   x_ = y.cwiseProduct(unit_);
   if (!problem_.switches(x_, lambda, h)) return false;
+  expect_size(h.size(), surface_.size(), "switches()");
   h.array() *= surface_.array();
   return true;
 }
@@ -152,6 +168,9 @@ bool Normalised::switch_gradients(const Vector& y, double lambda, Matrix& dh_dy,
                                   Vector& dh_dlambda) const {
   x_ = y.cwiseProduct(unit_);
   if (!problem_.switch_gradients(x_, lambda, dh_dy, dh_dlambda)) return false;
+  expect_size(dh_dy.rows(), surface_.size(), "dg_dx (rows)");
+  expect_size(dh_dy.cols(), unit_.size(), "dg_dx (columns)");
+  expect_size(dh_dlambda.size(), surface_.size(), "dg_dlambda");
   dh_dy.array().colwise() *= surface_.array();
   dh_dy.array().rowwise() *= unit_.transpose().array();
   dh_dlambda.array() *= surface_.array();
