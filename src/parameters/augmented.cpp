@@ -23,15 +23,6 @@ Exactness exactness_for(const Vector& X, const Vector& F) {
   return F.lpNorm<Eigen::Infinity>() > still_far * size ? Exactness::rough : Exactness::exact;
 }
 
-/// Second derivatives below this share of what rounding of differences leaves visible are zero.
-constexpr double vanishing_second = 10 * root_of_rounding;
-
-/// Does a form vanish along a direction, beside its own size and that of the first derivatives?
-bool vanishes_along(const Vector& form, const Vector& direction, double first) {
-  const double size = std::max(form.norm(), first);
-  return std::abs(form.dot(direction)) <= vanishing_second * size * direction.norm();
-}
-
 /// M^-1 (0, I) for M = [A B; C^T 0] with k columns in B and C. @returns false where M is singular to rounding
 bool solve_borders(const Matrix& A, const Matrix& B, const Matrix& C, Matrix& result) {
   const Index rows = A.rows() + B.cols();
@@ -114,32 +105,6 @@ Augmented::Augmented(const Family& family, const CriticalStart& start, NullVecto
     periods_.head(n_) = problem->periods();
     covers_ = problem->double_covers();
   }
-  held_ = k_ > 0 && may_hold();
-}
-
-bool Augmented::may_hold() const {
-  const auto here = terms(start_unknowns(), start_.mu);
-  if (!here) return true;
-  const Matrix &V = here->at.V, &W = here->at.W;
-  const double first = here->at.base.J.norm();
-  const auto form_along = [&](Index i, const Vector& direction) {
-    return second_along(family_, start_.x, start_.lambda, start_.mu, start_.piece, W.col(i),
-                        direction);
-  };
-  const Vector along = here->along.col(0);
-  for (Index i = 0; i < k_; ++i) {
-    const auto bend = form_along(i, along);
-    if (bend && !vanishes_along(*bend, along, first)) return false;
-    for (Index j = 0; j < k_; ++j) {
-      Vector mode = Vector::Zero(n_ + 1);
-      mode.head(n_) = V.col(j);
-      const auto form = form_along(i, mode);
-      if (!form) continue;
-      for (Index l = 0; l < k_; ++l)
-        if (!vanishes_along(form->head(n_), V.col(l), first)) return false;
-    }
-  }
-  return true;
 }
 
 bool Augmented::is_bordered() const {
@@ -217,7 +182,7 @@ std::optional<Augmented::Terms> Augmented::terms(const Vector& X, double mu) con
     if (!p) return std::nullopt;
     terms.at = std::move(*p);
     terms.last = terms.at.G.trace();
-    if (k_ == 0 || held_) return terms;
+    if (k_ == 0) return terms;
     Vector right = Vector::Zero(n_ + k_);
     right.head(n_) = terms.at.base.J.col(n_);
     const Vector solution =
@@ -267,8 +232,7 @@ bool Augmented::put_residual(const Vector& X, const Terms& terms, Vector& F) con
   F.head(n_) = terms.at.base.F;
   if (k_ > 0) {
     F.head(n_) += borders_.left * X.tail(k_);
-    F.segment(n_, k_) =
-        held_ ? Vector(borders_.right.transpose() * (state(X) - start_.x)) : terms.load;
+    F.segment(n_, k_) = terms.load;
   }
   F[n_ + k_] = terms.last;
   return true;
@@ -321,15 +285,14 @@ bool Augmented::differences(const Vector& X, double mu, const Terms& terms, Exac
   const Vector x = state(X);
   const double l = lambda(X);
   const Matrix &V = terms.at.V, &W = terms.at.W;
-  const Index crossing = k_ > 0 && !held_ ? k_ : 0;
-  found.by_X = Matrix::Zero(crossing + 1, n_ + 1);
+  found.by_X = Matrix::Zero(k_ + 1, n_ + 1);
   if (!put_rows(X, mu, terms, exactness, found.by_X)) return false;
   const auto values_of = [&](const BaseTerms& base, double m) -> std::optional<Vector> {
-    Vector values(n_ + crossing + 1);
+    Vector values(n_ + k_ + 1);
     values.head(n_) = base.F;
-    if (crossing > 0) values.segment(n_, crossing) = W.transpose() * (base.J * terms.along);
+    if (k_ > 0) values.segment(n_, k_) = W.transpose() * (base.J * terms.along);
     if (is_bordered()) {
-      values[n_ + crossing] = -(W.cwiseProduct(base.J.leftCols(n_) * V)).sum();
+      values[n_ + k_] = -(W.cwiseProduct(base.J.leftCols(n_) * V)).sum();
       return values;
     }
     const auto g = surface(x, l, m);
@@ -368,16 +331,9 @@ bool Augmented::put_derivatives(const Vector& X, double mu, const Terms& terms, 
   }
   dF_dX = Matrix::Zero(size(), size());
   dF_dX.topLeftCorner(n_, n_ + 1) = terms.at.base.J;
-  if (k_ > 0) {
-    dF_dX.topRightCorner(n_, k_) = borders_.left;
-    if (held_) dF_dX.block(n_, 0, k_, n_) = borders_.right.transpose();
-  }
-  const Index crossing = at->by_X.rows() - 1;  // equations W^T dF/dlambda = 0
-  dF_dX.block(n_, 0, crossing, n_ + 1) = at->by_X.topRows(crossing);
-  dF_dX.bottomLeftCorner(1, n_ + 1) = at->by_X.bottomRows(1);
-  dF_dmu = Vector::Zero(size());
-  dF_dmu.head(n_ + crossing) = at->by_mu.head(n_ + crossing);
-  dF_dmu[n_ + k_] = at->by_mu[n_ + crossing];
+  if (k_ > 0) dF_dX.topRightCorner(n_, k_) = borders_.left;
+  dF_dX.bottomLeftCorner(k_ + 1, n_ + 1) = at->by_X;
+  dF_dmu = at->by_mu;
   return dF_dX.allFinite() && dF_dmu.allFinite();
 }
 

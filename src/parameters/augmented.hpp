@@ -70,8 +70,8 @@ class Augmented {
   /// All terms at one place; V, W and G of bordered kinds only. `last`: the last equation: trace of G, or the surface.
   struct Terms {
     BorderedPlace at{};
-    Matrix along{};  ///< not held only: (-y, 1) with M (y, eta) = (dF/dlambda, 0), a column
-    Vector load{};   ///< not held only: eta = W^T dF/dlambda
+    Matrix along{};  ///< branch points: (-y, 1) with M (y, eta) = (dF/dlambda, 0), a column
+    Vector load{};   ///< branch points: eta = W^T dF/dlambda
     double last = 0;
   };
   std::optional<Terms> terms(const Vector& X, double mu) const;
@@ -93,9 +93,6 @@ class Augmented {
                 Matrix& rows) const;
   /// Exact ones at this place, or as near to it as the corrector comes.
   const Differences* known_differences(const Vector& X, double mu) const;
-  /// May the components along the null vectors be held? Where all second derivatives vanish in which the branches bend or
-  /// cross askew, as symmetry makes them: the branch point stays on the branch that does not move along the null vectors.
-  bool may_hold() const;
   bool put_residual(const Vector& X, const Terms& terms, Vector& F) const;
   bool put_derivatives(const Vector& X, double mu, const Terms& terms, Exactness exactness,
                        Matrix& dF_dX, Vector& dF_dmu) const;
@@ -104,7 +101,6 @@ class Augmented {
   CriticalStart start_;
   NullVectors borders_;  ///< B = left, C = right
   Index n_ = 0, k_ = 0;  ///< k: unfolding coefficients, of branch points only
-  bool held_ = false;    ///< branch points: C^T (x - x_start) = 0 instead of W^T dF/dlambda = 0
   Vector weights_{}, periods_{};
   std::vector<Index> covers_{};
   mutable Differences exact_{};        ///< the last ones

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parameters/family_differences.hpp"
 #include "parameters/solve_augmented.hpp"
+#include "springfold/core/decompositions.hpp"
+#include "springfold/core/extended_matrix.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -37,7 +40,7 @@ void HeldProblem::add_modes(const Vector& X, Vector& F) const {
   const Index n = inner_.size(), h = start_.held_right.cols();
   F.conservativeResize(n + h);
   F.head(n) += start_.held_left * X.tail(h);
-  F.tail(h) = start_.held_right.transpose() * (X.head(n) - start_.x);
+  F.tail(h) = held_by(start_).transpose() * (X.head(n) - start_.x);
 }
 
 bool HeldProblem::residual(const Vector& X, double lambda, const Piece& piece, Vector& F) const {
@@ -54,7 +57,7 @@ bool HeldProblem::derivatives(const Vector& X, double lambda, const Piece& piece
   dF_dX = Matrix::Zero(n + h, n + h);
   dF_dX.topLeftCorner(n, n) = dF_dx;
   dF_dX.topRightCorner(n, h) = start_.held_left;
-  dF_dX.bottomLeftCorner(h, n) = start_.held_right.transpose();
+  dF_dX.bottomLeftCorner(h, n) = held_by(start_).transpose();
   dF_dlambda = lengthened(dF_dlambda, h, 0);
   return true;
 }
@@ -83,7 +86,7 @@ bool HeldProblem::switch_gradients(const Vector& X, double lambda, Matrix& dg_dX
 }
 
 bool HeldProblem::symmetric() const {
-  return inner_.symmetric() && start_.held_left == start_.held_right;
+  return inner_.symmetric() && start_.held_left == held_by(start_);
 }
 
 Vector HeldProblem::metric() const {
@@ -108,7 +111,7 @@ HeldFamily::HeldFamily(const Family& family, const CriticalStart& start) : start
 CriticalStart HeldFamily::start() const {
   CriticalStart start = start_;
   start.x = lengthened(start_.x, start_.held_right.cols(), 0);
-  start.held_left = start.held_right = {};
+  start.held_left = start.held_right = start.held_by = {};
   return start;
 }
 
@@ -168,6 +171,26 @@ CriticalCurve follow_held(const Family& family, const CriticalStart& start, bool
   return curve;
 }
 
+/// Forms C with C^T V = I that vanish on all that the symmetry keeps: W^T D^2F [path, .], since a symmetry that keeps the path
+/// changes the sign of W. Nothing where they say nothing of V, or are W itself.
+Matrix holding_forms(const Family& family, const CriticalStart& at, const Matrix& W,
+                     const Matrix& V, const Vector& path) {
+  const Index n = at.x.size(), h = V.cols();
+  Vector along = Vector::Zero(n + 1);
+  along.head(n) = path;
+  Matrix forms(n, h);
+  for (Index i = 0; i < h; ++i) {
+    const auto form = second_along(family, at.x, at.lambda, at.mu, at.piece, W.col(i), along);
+    if (!form) return {};
+    forms.col(i) = form->head(n);
+  }
+  const Matrix on_V = forms.transpose() * V;
+  const Vector sizes = jacobi_svd(on_V).values;
+  if (!(sizes[h - 1] > poor * forms.norm())) return {};
+  const Matrix C = Lu(on_V).solve(Matrix(forms.transpose())).transpose();
+  return (C - V).norm() <= poor * V.norm() ? Matrix() : C;
+}
+
 std::optional<CriticalStart> hilltop_start(const Family& family, const CriticalStart& branch_point,
                                            const Direction& path) {
   if (std::abs(path.dlambda) > root_of_rounding * path.dx.norm()) return std::nullopt;
@@ -186,10 +209,10 @@ std::optional<CriticalStart> hilltop_start(const Family& family, const CriticalS
   CriticalStart start = branch_point;
   start.kind = CriticalKind::limit_point;
   start.corank = 1;
-  start.held_right = null->right * across(along);
-  const double cosine = along.dot(loaded) / (along.norm() * loaded.norm());
-  const bool alike = family.at(branch_point.mu)->symmetric() && std::abs(cosine) > 1 - poor;
-  start.held_left = alike ? start.held_right : Matrix(null->left * across(loaded));
+  start.held_left = null->left * across(loaded);
+  const bool symmetric = family.at(branch_point.mu)->symmetric();
+  start.held_right = symmetric ? start.held_left : Matrix(null->right * across(along));
+  start.held_by = holding_forms(family, branch_point, start.held_left, start.held_right, path.dx);
   return start;
 }
 

@@ -8,6 +8,11 @@ namespace springfold::continuation {
 /// Whether a start holds modes.
 inline bool holds_modes(const CriticalStart& start) { return start.held_right.cols() > 0; }
 
+/// The forms by which they are held.
+inline const Matrix& held_by(const CriticalStart& start) {
+  return start.held_by.size() > 0 ? start.held_by : start.held_right;
+}
+
 /// One problem of a family, of n unknowns x, with h modes held:
 ///
 ///     | F(x, lambda) + B beta |            | dF/dx  B |

@@ -30,6 +30,16 @@ struct Given {
   }
 };
 
+/// The same in unknowns y with x_1 = y_1, x_i = y_i - y_{i-1}: what exchanges x_i is not orthogonal in them. F_y = T^T F_x.
+inline Given in_sums(const Given& of) {
+  Matrix T = Matrix::Identity(of.n, of.n);
+  for (Index i = 1; i < of.n; ++i) T(i, i - 1) = -1;
+  return {[=](const Vector& y, double l) { return Vector(T.transpose() * of.F(T * y, l)); },
+          [=](const Vector& y, double l) { return Matrix(T.transpose() * of.J(T * y, l) * T); },
+          [=](const Vector& y, double l) { return Vector(T.transpose() * of.by_lambda(T * y, l)); },
+          of.n};
+}
+
 template <class P>
 Family family_of(std::function<P(double)> make) {
   const auto held = std::make_shared<std::optional<P>>();

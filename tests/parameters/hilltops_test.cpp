@@ -10,20 +10,21 @@ namespace springfold::continuation {
 namespace {
 
 /// Units x_i with c_i x - 3 x^2 + x^3 = lambda, c = (mu, mu + apart * mu, ...).
+Given row_of_units(Index count, double apart, double mu) {
+  Vector c(count);
+  for (Index i = 0; i < count; ++i) c[i] = mu * (1 + apart * static_cast<double>(i));
+  return {[c](const Vector& x, double lambda) {
+            const auto u = x.array();
+            return Vector((c.array() * u - 3 * u.square() + u.cube() - lambda).matrix());
+          },
+          [c](const Vector& x, double) {
+            const auto u = x.array();
+            return Matrix((c.array() - 6 * u + 3 * u.square()).matrix().asDiagonal());
+          },
+          [](const Vector& x, double) { return Vector(-Vector::Ones(x.size())); }, count};
+}
 Family units(Index count, double apart) {
-  return family_of<Given>([=](double mu) {
-    Vector c(count);
-    for (Index i = 0; i < count; ++i) c[i] = mu * (1 + apart * static_cast<double>(i));
-    return Given{[c](const Vector& x, double lambda) {
-                   const auto u = x.array();
-                   return Vector((c.array() * u - 3 * u.square() + u.cube() - lambda).matrix());
-                 },
-                 [c](const Vector& x, double) {
-                   const auto u = x.array();
-                   return Matrix((c.array() - 6 * u + 3 * u.square()).matrix().asDiagonal());
-                 },
-                 [](const Vector& x, double) { return Vector(-Vector::Ones(x.size())); }, count};
-  });
+  return family_of<Given>([=](double mu) { return row_of_units(count, apart, mu); });
 }
 
 double turn_at(double c) { return 1 - std::sqrt(1 - c / 3); }
@@ -60,6 +61,29 @@ TEST(Hilltops, AreFollowedToTheCuspOfTheirUnits) {
     for (const CriticalPoint& p : curve.points) {
       if (p.s >= cusp->point.s) break;
       EXPECT_NEAR(p.lambda, load_at(p.mu), 1e-10);
+    }
+  }
+}
+
+TEST(Hilltops, AreTheSameInUnknownsInWhichTheirSymmetryIsNotOrthogonal) {
+  for (const Index count : {2, 3, 4}) {
+    SCOPED_TRACE(count);
+    const Family family =
+        family_of<Given>([=](double mu) { return in_sums(row_of_units(count, 0, mu)); });
+    CriticalStart at = turn_of_all(count, 2);
+    const Vector path = Vector::LinSpaced(count, 1.0, static_cast<double>(count));
+    at.x = turn_at(2) * path;
+    const auto start = hilltop_start(family, at, {path.normalized(), 0});
+    ASSERT_TRUE(start);
+    const auto rate = critical_rate(family, *start);
+    ASSERT_TRUE(rate);
+    EXPECT_NEAR(rate->dlambda, turn_at(2), 1e-9);
+    const CriticalCurve curve = follow_critical(family, *start, false, {stop_at(1, 2.5)}, {});
+    EXPECT_TRUE(curve.kept);
+    EXPECT_NEAR(curve.hits.back().point.mu, 1, 1e-9);
+    for (const CriticalPoint& p : curve.points) {
+      EXPECT_NEAR(p.lambda, load_at(p.mu), 1e-10);
+      EXPECT_LT((p.x - turn_at(p.mu) * path).norm(), 1e-9);
     }
   }
 }

@@ -50,6 +50,9 @@ struct CriticalStart {
   /// Kind limit_point: modes that vanish at the same point and along which the curve does not move, left and right ones,
   /// n x h each; hilltop_start() finds them. Empty: none.
   Matrix held_left{}, held_right{};
+  /// The forms, n x h, that stay zero along a curve that keeps them. Empty: `held_right` itself, which is so where the symmetry
+  /// that the modes break is orthogonal.
+  Matrix held_by{};
   /// Kind branch_point: switches that are zero all along the branch, which is crossed in `piece` to one side of them. The
   /// curve ends where one of them leaves zero, and where the mode comes to its surface.
   std::vector<Index> resting{};
@@ -129,8 +132,7 @@ struct CriticalCurve {
 ///
 ///     F + B beta = 0,     W^T dF/dlambda = 0,     trace G = 0     for (x, lambda, beta), W of the transposed system,
 ///
-/// or, where symmetry holds the branch point on its branch, C^T (x - x0) = 0 in place of the second ones. This is
-/// regular there; beta = 0 all along says that the parameter keeps the branch, as symmetries do.
+/// where beta = 0 all along says that the parameter keeps the branch, as symmetries do.
 /// Points on surfaces solve F = 0, g_j = 0. Derivatives of G need those of dF/dx along V only: the problem's own second
 /// derivatives, or differences of sixth order of the exact dF/dx. They enter the matrix of Newton's method, not the
 /// equations: located points are as exact as F and dF/dx.
