@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "critical_kinks.hpp"
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
 #include "springfold/continuation/newton.hpp"
@@ -216,8 +217,8 @@ class Beyond {
     FollowedCurve piece{.start = next, .of = last.of};
     if (next.kind == continuation::CriticalKind::limit_point) piece.of = EventKind::limit_point;
     CriticalCurve& curve = piece.growing;
-    curve = follow_critical(curves_.family(), next, growing, events, critical_options(study_),
-                            observe, further);
+    curve = follow_over_kinks(curves_, next, growing, events, critical_options(study_), observe,
+                              further);
     say_why_it_stops(curves_, growing, curve);
     if (next.kind == continuation::CriticalKind::surface) {
       piece.of = EventKind::corner_limit_point;
@@ -310,6 +311,7 @@ std::optional<CriticalOrigin> origin_on_path(const CaseCurves& curves, const Bas
   if (!origin.starts.empty()) return origin;
   report.found = false;
   report.message = why;
+  report.where = std::string{to_string(study.kind)} + ".of";
   return std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "branch_rows.hpp"
+#include "critical_kinks.hpp"
 #include "grow_diagram.hpp"
 #include "other_modes.hpp"
 #include "springfold/analysis/row_memory.hpp"
@@ -49,32 +50,6 @@ std::string detail_of(const CriticalHit& hit, EventKind of) {
   const std::string kind = name_of_degeneracy(hit.kind, of);
   if (hit.kind == Degeneracy::user) return hit.name;
   return hit.name.empty() ? kind : kind + ": " + hit.name;
-}
-
-/// Where between two values do starts change their piece? The one nearer to `mu` on the far side, and which switch it is.
-std::optional<std::pair<double, std::string>> switching_start(const CaseCurves& curves, double mu,
-                                                              double beyond) {
-  const auto piece_at = [&curves](double m) {
-    const Member* member = curves.at(m);
-    return member == nullptr ? Piece{} : member->first.piece;
-  };
-  const Piece here = piece_at(mu);
-  Piece there = piece_at(beyond);
-  if (here.empty() || there.size() != here.size() || there == here) return std::nullopt;
-  constexpr int halvings = 40;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = mu + 0.5 * (beyond - mu);
-    Piece piece = piece_at(middle);
-    if (piece.size() != here.size()) return std::nullopt;
-    if (piece == here) {
-      mu = middle;
-    } else {
-      beyond = middle;
-      there = std::move(piece);
-    }
-  }
-  const auto differs = std::mismatch(here.begin(), here.end(), there.begin()).first - here.begin();
-  return std::pair{beyond, curves.base().problem->switch_name(differs)};
 }
 
 /// Where between two values do starts end? The one nearer to `mu` on the far side, and why.
@@ -146,7 +121,6 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
                                const std::vector<continuation::CriticalStart>& starts, EventKind of,
                                const Observer& observer) {
   FollowedCurve followed{.start = starts.front(), .of = of};
-  const auto family = curves.family();
   const auto events = critical_events(curves, study, starts.front().piece);
   int points = 0;
   const auto observe = [&](const CriticalPoint& p) { return !observer || observer(++points, p.s); };
@@ -156,7 +130,7 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
   const auto follow = [&](bool growing) {
     CriticalCurve curve;
     for (const continuation::CriticalStart& start : starts) {
-      curve = follow_critical(family, start, growing, events, options, observe, further);
+      curve = follow_over_kinks(curves, start, growing, events, options, observe, further);
       const bool stands = curve.points.size() == 1 && curve.hits.size() == 1 &&
                           curve.hits.front().kind == Degeneracy::two_switches;
       if (!stands) break;

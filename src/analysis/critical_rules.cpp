@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "case_curves.hpp"
+#include "outside_range.hpp"
 #include "run_kinds.hpp"
 
 namespace springfold::analysis {
@@ -29,8 +30,9 @@ void check_range(const Study& study, const std::string& key, Problems& problems)
   if (s.point.find('/') != std::string::npos) return;  // the row of the earlier curve decides
   const double value = s.cases->values[static_cast<std::size_t>(number - s.cases->names.begin())];
   if (!(s.low <= value && value <= s.high))
-    problems.push_back(key + ".range: the value of \"" + s.parameter +
-                       "\" lies outside: the curve begins there");
+    problems.push_back(key + ".range: the value of \"" + s.parameter + "\"" +
+                       outside_range(value, "the range", s.low, s.high) +
+                       ": the curve begins there");
 }
 
 }  // namespace

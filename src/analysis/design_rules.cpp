@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "outside_range.hpp"
 #include "quantities.hpp"
 #include "run_kinds.hpp"
 
@@ -71,7 +72,9 @@ class Checker {
       return add(key, "need two finite numbers low < high");
     const double value = cases.values[static_cast<std::size_t>(known - cases.names.begin())];
     if (!(parameter.low <= value && value <= parameter.high))
-      add(key, "the value of \"" + parameter.name + "\" lies outside: changes are counted from it");
+      add(key, "the value of \"" + parameter.name + "\"" +
+                   outside_range(value, "the range", parameter.low, parameter.high) +
+                   ": changes are counted from it");
     if (!(parameter.unit >= 0) || !std::isfinite(parameter.unit))
       add("design.scale." + parameter.name, "need a number > 0");
   }

@@ -4,6 +4,7 @@
 
 #include "cpu_time.hpp"
 #include "critical_runs.hpp"
+#include "outside_range.hpp"
 #include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
@@ -282,8 +283,9 @@ CurveRun begin_on_curve(const History& history, const Study& study, const Observ
   }
   const double value = run.curves->value();
   if (!(settings.low <= value && value <= settings.high))
-    return refused("the value of \"" + settings.parameter + "\" at " + place + ", " +
-                       rounded(value) + ", lies outside: the curve begins there",
+    return refused("the value of \"" + settings.parameter + "\" at " + place +
+                       outside_range(value, "the range", settings.low, settings.high) +
+                       ": the curve begins there",
                    "critical_curve.range");
   if (!make_origin(before, *row, place, run))
     return refused("the equations do not hold at " + place + " with " + settings.parameter + " = " +

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "critical_kinks.hpp"
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
 #include "cut_curve.hpp"
@@ -166,9 +167,9 @@ class LoadsOverParameter {
       return back < more && (!observer_ || observer_(0, p.s));
     };
     Side side;
-    side.curve = follow_critical(curves_.family(), piece.start, sense > 0,
-                                 first_point_events(curves_, within, piece.start.piece),
-                                 critical_options(study_), observe);
+    side.curve = follow_over_kinks(curves_, piece.start, sense > 0,
+                                   first_point_events(curves_, within, piece.start.piece),
+                                   critical_options(study_), observe);
     say_why_it_stops(curves_, sense > 0, side.curve);
     say_start_or_its_load(curves_, side.curve);
     const auto turn = std::find_if(side.curve.hits.begin(), side.curve.hits.end(),
@@ -213,8 +214,7 @@ class LoadsOverParameter {
     std::vector<double> values = grid_;
     const double near = side.end - sense * before_end * width_;
     values.push_back(near);
-    std::sort(values.begin(), values.end());
-    if (sense < 0) std::reverse(values.begin(), values.end());
+    std::ranges::sort(values, [sense](double a, double b) { return sense * a < sense * b; });
     for (const double value : values) {
       if (sense * (value - mu) <= 0 || sense * (value - side.end) >= 0) continue;
       const bool on = is_first(piece, side.curve, value);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "outside_range.hpp"
 #include "quantities.hpp"
 #include "run_kinds.hpp"
 #include "springfold/core/number_text.hpp"
@@ -178,7 +179,8 @@ void check_branches(const Study& study, std::vector<std::string>& problems) {
     if (!std::isfinite(lambda)) problems.push_back("branches.search_at: need finite numbers");
     for (const Limit& limit : study.until)
       if (limit.quantity == "lambda" && !(limit.low <= lambda && lambda <= limit.high))
-        problems.push_back("branches.search_at: a value lies outside the limits of lambda");
+        problems.push_back("branches.search_at: a value" +
+                           outside_range(lambda, "the limits of lambda", limit.low, limit.high));
   }
 }
 
@@ -189,7 +191,8 @@ void check_levels(const Study& study, std::vector<std::string>& problems) {
       if (!std::isfinite(value)) problems.push_back(key + ": need finite numbers");
       for (const Limit& limit : study.until)
         if (limit.quantity == "lambda" && !(limit.low <= value && value <= limit.high))
-          problems.push_back(key + ": a value lies outside the limits of lambda");
+          problems.push_back(key + ": a value" +
+                             outside_range(value, "the limits of lambda", limit.low, limit.high));
     }
   };
   if (study.snap->cycle) {

@@ -5,6 +5,7 @@
 
 #include "beside_answer.hpp"
 #include "branch_rows.hpp"
+#include "critical_kinks.hpp"
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
 #include "cut_curve.hpp"
@@ -137,8 +138,8 @@ class Threshold {
     const auto events = first_point_events(curves_, limits, start->piece);
     FollowedCurve followed{.start = *start, .of = bad.kind};
     CriticalCurve& curve = followed.growing;
-    curve = follow_critical(curves_.family(), *start, towards_ > 0, events,
-                            critical_options(study_), observe);
+    curve =
+        follow_over_kinks(curves_, *start, towards_ > 0, events, critical_options(study_), observe);
     say_why_it_stops(curves_, towards_ > 0, curve);
     say_start_or_its_load(curves_, curve);
     const auto end = std::find_if(curve.hits.begin(), curve.hits.end(),

@@ -368,8 +368,8 @@ TEST(FurtherCurves, SayWhyTheyDoNotBegin) {
             "critical_curve.of: study \"c1\" has no UZ3; its special points: EP1, UZ1, CP1, UZ2, "
             "EP2");
   EXPECT_EQ(why("c1/UZ1", "[0.3, 0.4]"),
-            "critical_curve.range: the value of \"p\" at UZ1 of study \"c1\", 0.454, lies outside: "
-            "the curve begins there");
+            "critical_curve.range: the value of \"p\" at UZ1 of study \"c1\" is 0.454, "
+            "outside the range (0.3 to 0.4): the curve begins there");
 }
 
 }  // namespace

@@ -215,5 +215,69 @@ critical_curve = { of = "LP2", parameter = "s1", range = [-0.1958, 0.0742] }
   EXPECT_NEAR(own->values[column(result, "lambda")], loads[0], 1e-10);
 }
 
+/// A point on two slides whose knees have springs beyond an angle: 15 degrees that of x, 0.1 that of y. At py = sin(15 deg) the
+/// first one touches at the start itself, where the drives are set.
+std::string two_slides(double py, const std::string& study) {
+  return "[parameters]\npy = " + std::to_string(py) + R"toml(
+[[body]]
+name = "tool"
+task_space = "xy"
+pose = [0, 0]
+[[chain]]
+name = "x"
+elements = [
+  { joint = "prismatic", axis = "x", name = "drive", role = "actuated", value = 1, stiffness = 1 },
+  { joint = "revolute", axis = "-z", name = "knee", role = "preloaded", spring = { law = "one_sided", stiffness = 0.05, from = "15*deg" } },
+  { rigid = [-1, 0] } ]
+[[chain]]
+name = "y"
+elements = [
+  { joint = "prismatic", axis = "y", name = "drive", role = "actuated", value = 1, stiffness = 1 },
+  { joint = "revolute", axis = "z", name = "knee", role = "preloaded", spring = { law = "one_sided", stiffness = 0.05, from = 0.1 } },
+  { rigid = [0, -1] } ]
+[[study]]
+name = "s"
+control = "load"
+direction = [0.8, 0.6]
+start = { pose = [0.42, "py"], solve = "actuators" }
+until = { lambda = [0, 3], "x.knee" = ["-80*deg", "80*deg"], "y.knee" = ["-80*deg", "80*deg"] }
+)toml" + study;
+}
+
+TEST(CriticalCurves, GoOnWhereASpringSwitchesAtTheStartItself) {
+  const double kink = std::sin(15 * std::numbers::pi / 180);
+  for (const char* kind : {"critical_load", "critical_curve"}) {
+    SCOPED_TRACE(kind);
+    const bool of_load = std::string{kind} == "critical_load";
+    const auto result =
+        run(two_slides(0.2, "kind = \"" + std::string{kind} +
+                                "\"\nmark = { py = [0.22, 0.2587, 0.2589, 0.3] }\n" + kind +
+                                (of_load ? " = { of = \"loss_of_stability\", values = 9, "
+                                         : " = { of = \"LP1\", ") +
+                                "parameter = \"py\", range = [0.15, 0.35] }\n"))
+            .of("s");
+    EXPECT_TRUE(result.doubts.empty()) << result.doubts.front();
+    ASSERT_EQ(result.branches.size(), 1u);
+    const analysis::Branch& branch = result.branches.front();
+    EXPECT_TRUE(branch.forward.complete && branch.backward.complete);
+    EXPECT_NEAR(branch.samples.front().values.back(), 0.15, 1e-9);
+    EXPECT_NEAR(branch.samples.back().values.back(), 0.35, 1e-9);
+    EXPECT_TRUE(std::any_of(branch.samples.begin(), branch.samples.end(), [&](const auto& row) {
+      return std::abs(row.values.back() - kink) < 1e-9;
+    })) << "the kink has a row of its own";
+    int marks = 0;
+    for (const analysis::Event& event : branch.events) {
+      if (event.kind != analysis::EventKind::user_value) continue;
+      ++marks;
+      const double py = branch.samples[event.row].values.back();
+      const auto path = run(two_slides(py, "kind = \"force_deflection\"\n")).of("s");
+      const auto limits = lambdas(path, analysis::EventKind::limit_point);
+      ASSERT_FALSE(limits.empty());
+      EXPECT_NEAR(value(result, event.row, "lambda"), limits.front(), 1e-9);
+    }
+    EXPECT_EQ(marks, 4);
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io

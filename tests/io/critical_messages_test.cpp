@@ -80,9 +80,9 @@ TEST_F(CriticalMessages, WantAParameterOfTheCase) {
 }
 
 TEST_F(CriticalMessages, WantARangeInWhichTheCurveBegins) {
-  EXPECT_THAT(
-      after("[0.1, 2]", "[1.5, 2]"),
-      ElementsAre(testing::HasSubstr("critical_curve.range: the value of \"k\" lies outside")));
+  EXPECT_THAT(after("[0.1, 2]", "[1.5, 2]"),
+              ElementsAre(testing::HasSubstr(
+                  "critical_curve.range: the value of \"k\" is 1, outside the range (1.5 to 2)")));
   EXPECT_THAT(after("[0.1, 2]", "3"),
               ElementsAre(testing::HasSubstr("critical_curve.range: got 3, need [low, high]")));
 }

@@ -68,9 +68,9 @@ TEST_F(DesignMessages, WantParametersWhoseNamesTheAnswerDoesNotHave) {
 
 TEST_F(DesignMessages, WantTheCaseWithinItsBounds) {
   EXPECT_THAT(after("[0.5, 2]", "[1.5, 2]"),
-              ElementsAre(HasSubstr(
-                  "study[1].design.parameters.k: the value of \"k\" lies outside: changes are "
-                  "counted from it")));
+              ElementsAre(HasSubstr("study[1].design.parameters.k: the value of \"k\" is 1, "
+                                    "outside the range (1.5 to 2): changes are "
+                                    "counted from it")));
 }
 
 TEST_F(DesignMessages, WantBoundsThatIncrease) {
