@@ -225,14 +225,19 @@ Hit turned(Hit hit, double length, const std::vector<Event>& events) {
   return hit;
 }
 
-/// A family on which the curve begins reaches to the junction itself, and is not told once more on the way back.
+/// A family on which the curve begins reaches to the junction itself, and is not told once more on the way back, where lambda
+/// stands still as well.
 void begin_families_at(const CurvePoint& junction, double length, Curve& curve,
                        std::vector<Hit>& met) {
   for (Hit& hit : curve.hits) {
     if (hit.kind != HitKind::family || hit.s_before != 0) continue;
     hit.point = junction;
     hit.point.s = hit.s_before = -length;
-    std::erase_if(met, [](const Hit& h) { return h.kind == HitKind::family; });
+    std::erase_if(met, [&](const Hit& h) {
+      const double off = std::abs(h.point.lambda - junction.lambda);
+      return h.kind == HitKind::family ||
+             (h.kind == HitKind::unresolved && off <= residual_level * scale_of(junction));
+    });
   }
 }
 
