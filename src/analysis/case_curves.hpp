@@ -82,6 +82,8 @@ class CaseCurves {
   /// The same where the case has no start, if nothing of it enters the equations (report.found is false then, and what
   /// is counted from the start is undefined). On a line of members the start is not looked for: at() does.
   const Member* equations_at(double mu) const;
+  /// Do the equations depend on what the start is, commands that it fixes or forces that it holds?
+  bool start_enters_equations() const;
   /// Why there is no start, where the last at(mu) gave nothing: in words.
   std::string why_none(double mu) const;
   continuation::Family family() const;

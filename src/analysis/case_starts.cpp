@@ -55,6 +55,10 @@ bool CaseCurves::solve_by_itself(Member& member) const {
   return solve(member, problem);
 }
 
+bool CaseCurves::start_enters_equations() const {
+  return !counts_from_one_origin(study_) || start_beside(study_).solve != StartSolve::pose;
+}
+
 /// What a start beside a neighbour's is sought from.
 std::optional<statics::StartProblem> CaseCurves::problem_beside(const Member& member,
                                                                 const Member& near) const {
@@ -164,8 +168,8 @@ bool CaseCurves::solve_in_state(Member& member, const std::string& way) const {
 /// With commands that are given or kept nothing of the start enters the equations of a load or a driven parameter.
 std::optional<statics::Inputs> CaseCurves::inputs_without_start(const Member& member,
                                                                 const Member& near) const {
+  if (start_enters_equations()) return std::nullopt;
   const StartOptions how = start_beside(member.study);
-  if (!counts_from_one_origin(member.study) || how.solve != StartSolve::pose) return std::nullopt;
   statics::Inputs inputs = start_problem(member.setup, member.study.body, how).inputs;
   if (keeps_commands(member.study)) inputs.rho = (base_ ? *base_ : near).first.inputs.rho;
   return inputs;

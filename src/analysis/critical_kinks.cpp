@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "springfold/continuation/numerics.hpp"
 
@@ -15,8 +16,11 @@ using continuation::CriticalHit;
 using continuation::CriticalPoint;
 using continuation::CriticalStart;
 
-/// Differences in the parameter reach no farther where they are narrowest: so near to a kink a curve breaks off.
-constexpr double reach_of_differences = step_of_family;
+/// Differences in the parameter reach less far where they are narrowest: so near to a kink a curve is followed.
+constexpr double beside_kink = step_of_family / 8;
+
+/// Of the event that ends a stretch just before a kink: no event of the caller has it.
+constexpr int own_tag = std::numeric_limits<int>::min();
 
 /// Of one curve; one that has more goes to and fro between two states.
 constexpr int most_kinks = 20;
@@ -112,32 +116,13 @@ class ShortGap {
   const std::vector<CriticalEvent>& events_;
 };
 
-/// What follows behind the kink, with its first point; nothing if it cannot be followed from there.
-std::optional<CriticalCurve> behind_kink(
-    const CriticalPoint& kink, const CriticalPoint& last, const CaseCurves& curves,
-    CriticalStart start, const std::function<CriticalCurve(CriticalStart)>& follow) {
-  constexpr double wider[] = {1, 4, 16};
-  for (const double times : wider) {
-    const double gap = std::max(std::abs(kink.mu - last.mu), reach_of_differences / 64) * times;
-    const auto first = point_near(
-        curves, start, on_line(kink, last, kink.mu + std::copysign(gap, last.dmu)), kink);
-    if (!first) continue;
-    start.x = first->x;
-    start.lambda = first->lambda;
-    start.mu = first->mu;
-    CriticalCurve curve = follow(start);
-    if (curve.points.size() < 2 && curve.hits.empty()) continue;
-    return curve;
-  }
-  return std::nullopt;
-}
-
 /// Puts a piece behind a curve, of which it begins at the last point.
 void append(CriticalCurve piece, CriticalCurve& curve) {
   const double s = curve.points.back().s;
   for (CriticalPoint& point : piece.points) point.s += s;
   for (CriticalHit& hit : piece.hits) hit.point.s += s;
-  curve.points.insert(curve.points.end(), piece.points.begin() + 1, piece.points.end());
+  if (!piece.points.empty())
+    curve.points.insert(curve.points.end(), piece.points.begin() + 1, piece.points.end());
   std::move(piece.hits.begin(), piece.hits.end(), std::back_inserter(curve.hits));
   curve.stop = piece.stop;
   curve.stop_detail = std::move(piece.stop_detail);
@@ -145,6 +130,130 @@ void append(CriticalCurve piece, CriticalCurve& curve) {
   curve.left_out += piece.left_out;
   curve.missed += piece.missed;
 }
+
+/// A curve up to just before a kink, or to its end.
+struct Stretch {
+  CriticalCurve curve{};
+  std::optional<double> kink{};  ///< the parameter's value there
+};
+
+class Follower {
+ public:
+  using Observer = std::function<bool(const CriticalPoint&)>;
+
+  Follower(const CaseCurves& curves, const CriticalStart& start,
+           const std::vector<CriticalEvent>& events, const continuation::TraceOptions& options,
+           const Observer& observer, const continuation::FurtherPoints& further)
+      : curves_{curves},
+        start_{start},
+        events_{events},
+        options_{options},
+        observer_{observer},
+        further_{further} {}
+
+  /// Steps cross kinks that are weak, or crawl before them: at accepted points it is asked on which piece the start is there, and
+  /// as far ahead as differences reach.
+  Stretch to_kink(const CriticalStart& from, bool growing) const {
+    const bool watches = curves_.start_enters_equations() && !from.piece.empty();
+    CriticalPoint last{.x = from.x, .lambda = from.lambda, .mu = from.mu};
+    std::optional<double> crossed;
+    const Observer watch = [&](const CriticalPoint& p) {
+      const double ahead = p.mu + std::copysign(grid_step, p.dmu);
+      if (watches && differ(last.mu, p.mu)) crossed = p.mu;
+      if (!crossed) last = p;
+      if (watches && !crossed && differ(p.mu, ahead)) crossed = ahead;
+      return !crossed && (!observer_ || observer_(p));
+    };
+    Stretch found{
+        follow_critical(curves_.family(), from, growing, events_, options_, watch, further_)};
+    if (crossed)
+      end_before(*crossed, last, found);
+    else if (found.curve.stop == continuation::StopReason::step_too_small)
+      found.kink = kink_near_end(found.curve);
+    return found;
+  }
+
+  /// From the kink on, with its first point; nothing if the curve cannot be followed from there.
+  std::optional<Stretch> from_kink(const CriticalPoint& kink, const CriticalPoint& last) const {
+    constexpr double wider[] = {1, 4, 16};
+    CriticalStart start = start_;
+    for (const double times : wider) {
+      const double gap = std::max(std::abs(kink.mu - last.mu), beside_kink) * times;
+      const auto first = point_near(
+          curves_, start_, on_line(kink, last, kink.mu + std::copysign(gap, last.dmu)), kink);
+      if (!first) continue;
+      start.x = first->x;
+      start.lambda = first->lambda;
+      start.mu = first->mu;
+      Stretch next = to_kink(start, last.dmu > 0);
+      if (next.curve.points.size() < 2 && next.curve.hits.empty() && !next.kink) continue;
+      return next;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Piece piece_at(double mu) const {
+    const Member* member = curves_.at(mu);
+    return member == nullptr ? Piece{} : member->first.piece;
+  }
+
+  bool differ(double a, double b) const {
+    const Piece here = piece_at(a), there = piece_at(b);
+    return !here.empty() && here.size() == there.size() && here != there;
+  }
+
+  std::optional<double> kink_near_end(const CriticalCurve& curve) const {
+    if (curve.points.empty() || curve.points.back().dmu == 0) return std::nullopt;
+    const CriticalPoint& last = curve.points.back();
+    const auto place =
+        switching_start(curves_, last.mu, last.mu + std::copysign(step_of_family, last.dmu));
+    return place ? std::optional(place->first) : std::nullopt;
+  }
+
+  /// The stretch ends at `last`, the last point before the kink, or nearer to it.
+  void end_before(double crossed, const CriticalPoint& last, Stretch& stretch) const {
+    CriticalCurve& curve = stretch.curve;
+    std::erase_if(curve.points, [&](const CriticalPoint& p) { return p.s > last.s; });
+    std::erase_if(curve.hits, [&](const CriticalHit& hit) { return hit.point.s > last.s; });
+    const auto place = switching_start(curves_, last.mu, crossed);
+    if (!place) return;
+    const double sense = crossed > last.mu ? 1 : -1, end = place->first - sense * beside_kink;
+    if (sense * (end - last.mu) > 0) {
+      std::vector<CriticalEvent> events = events_;
+      events.push_back({.name = "kink",
+                        .value = [=](const CriticalPoint& p) { return sense * (p.mu - end); },
+                        .action = continuation::EventAction::stop,
+                        .of_place = true,
+                        .tag = own_tag});
+      CriticalStart from = start_;
+      from.x = last.x;
+      from.lambda = last.lambda;
+      from.mu = last.mu;
+      CriticalCurve rest =
+          follow_critical(curves_.family(), from, sense > 0, events, options_, observer_, further_);
+      const bool reached = !rest.hits.empty() && rest.hits.back().tag == own_tag;
+      if (reached) {
+        rest.points.push_back(rest.hits.back().point);
+        rest.hits.pop_back();
+      }
+      append(std::move(rest), curve);
+      if (!reached) {
+        if (curve.stop == continuation::StopReason::step_too_small)
+          stretch.kink = kink_near_end(curve);
+        return;
+      }
+    }
+    stretch.kink = place->first;
+  }
+
+  const CaseCurves& curves_;
+  const CriticalStart& start_;
+  const std::vector<CriticalEvent>& events_;
+  const continuation::TraceOptions& options_;
+  const Observer& observer_;
+  const continuation::FurtherPoints& further_;
+};
 
 }  // namespace
 
@@ -178,38 +287,31 @@ CriticalCurve follow_over_kinks(const CaseCurves& curves, const CriticalStart& s
                                 const continuation::TraceOptions& options,
                                 const std::function<bool(const CriticalPoint&)>& observer,
                                 const continuation::FurtherPoints& further) {
-  CriticalCurve curve =
-      follow_critical(curves.family(), start, growing, events, options, observer, further);
+  const Follower follower(curves, start, events, options, observer, further);
   const ShortGap gap(curves, start, events);
+  Stretch stretch = follower.to_kink(start, growing);
+  CriticalCurve& curve = stretch.curve;
   std::vector<CriticalPoint> passed;
-  for (int kinks = 0; kinks < most_kinks; ++kinks) {
-    if (curve.stop != continuation::StopReason::step_too_small || curve.points.size() < 2)
-      return curve;
+  while (stretch.kink && !curve.points.empty() && std::ssize(passed) < most_kinks) {
     const CriticalPoint last = curve.points.back();
-    if (last.dmu == 0) return curve;
-    const auto place =
-        switching_start(curves, last.mu, last.mu + std::copysign(reach_of_differences, last.dmu));
-    const auto kink =
-        place ? point_near(curves, start, on_line(last, last, place->first), last) : std::nullopt;
-    if (!kink) return curve;
+    if (last.dmu == 0) break;
+    const auto kink = point_near(curves, start, on_line(last, last, *stretch.kink), last);
+    if (!kink) break;
     const auto is_kink = [&](const CriticalPoint& other) {
       return other.dmu * last.dmu > 0 && distance(other, *kink) <= continuation::told_apart;
     };
     if (std::any_of(passed.begin(), passed.end(), is_kink)) {
       curve.stop = continuation::StopReason::closed;
-      return curve;
+      break;
     }
     passed.push_back(*kink);
-    const auto follow = [&](const CriticalStart& from) {
-      return follow_critical(curves.family(), from, last.dmu > 0, events, options, observer,
-                             further);
-    };
-    auto piece = behind_kink(*kink, last, curves, start, follow);
-    if (!piece) return curve;
-    CriticalPoint first = piece->points.front();
+    auto next = follower.from_kink(*kink, last);
+    if (!next) break;
+    CriticalPoint first = next->curve.points.front();
     first.s = kink->s + distance(first, *kink);
-    if (gap.close(*kink, curve) || gap.close(first, curve)) return curve;
-    append(std::move(*piece), curve);
+    if (gap.close(*kink, curve) || gap.close(first, curve)) break;
+    append(std::move(next->curve), curve);
+    stretch.kink = next->kink;
   }
   return curve;
 }

@@ -8,6 +8,7 @@
 #include "analysis/undefined.hpp"
 #include "critical_rows.hpp"
 #include "cut_curve.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/number_text.hpp"
 #include "switching_starts.hpp"
 
@@ -48,6 +49,24 @@ void end_where_equal(const CaseCurves& curves, LoadPiece& last, LoadPiece& next,
 constexpr const char* at_this_value = "at this value alone: it does not move with the parameter";
 
 }  // namespace
+
+std::optional<bool> is_of_piece(const SpecialPoint& first, EventKind of, bool alone,
+                                double lambda) {
+  const double there = first.hit.point.lambda, size = 1 + std::abs(there);
+  const double off = std::abs(lambda - there);
+  if (first.kind == EventKind::unresolved && off <= continuation::told_apart * size)
+    return std::nullopt;
+  return (first.kind == of || alone) && off <= same_load * size;
+}
+
+std::string why_hidden(const SpecialPoint& first) {
+  return first.label + " is unresolved, and may hide the point that is followed";
+}
+
+bool may_decide(const continuation::CriticalHit& hit) {
+  return hit.kind != continuation::Degeneracy::user &&
+         hit.kind != continuation::Degeneracy::extremum;
+}
 
 bool is_same_load_at_ends(double a, double b) {
   return std::abs(b - a) <= same_load + std::sqrt(same_load) * std::max(std::abs(a), std::abs(b));

@@ -40,6 +40,15 @@ struct LoadPiece {
 /// point or springs that switch at once, or makes an imperfect structure of a perfect one? Other points come to it from beside.
 bool stands_alone(const CaseCurves& curves, const Member& member, const SpecialPoint& point);
 
+/// Is this what comes first on a path, on a piece of such points that has the load `lambda` there? Nothing: it is unresolved, and
+/// may hide the point of the piece.
+/// @param alone  it may be of another kind than its neighbours
+std::optional<bool> is_of_piece(const SpecialPoint& first, EventKind of, bool alone, double lambda);
+std::string why_hidden(const SpecialPoint& first);
+
+/// May another point come first beyond this one? Not at events of the caller, nor where the load has an extremum.
+bool may_decide(const continuation::CriticalHit& hit);
+
 /// Loads at ends of pieces, where the parameter of one may differ a little from that of the other.
 bool is_same_load_at_ends(double a, double b);
 

@@ -29,7 +29,6 @@ constexpr double before_end = 1e-7, next_piece = 1e-6, closest_bracket = 1e-11;
 /// A cusp is seen on the path only some way behind it: ends as near as this to one are at it, parts of the range.
 constexpr double at_degeneracy = 1e-5;
 constexpr int most_pieces = 200;
-constexpr double both_senses[] = {-1, 1};
 
 class LoadsOverParameter {
  public:
@@ -217,12 +216,12 @@ class LoadsOverParameter {
     std::ranges::sort(values, [sense](double a, double b) { return sense * a < sense * b; });
     for (const double value : values) {
       if (sense * (value - mu) <= 0 || sense * (value - side.end) >= 0) continue;
-      const bool on = is_first(piece, side.curve, value);
-      if (!on && value != near && !first_at(value).why.empty()) {
-        doubt(value, first_at(value).why);
-        continue;
-      }
-      if (!on) return end_before(piece, side, good, value);
+      const std::optional<bool> on = is_first(piece, side.curve, value);
+      const std::string why = on ? first_at(value).why : why_hidden(*first_at(value).point);
+      const bool is_known = on.value_or(false) || (on && why.empty());
+      if (!is_known && value != near) doubt(value, why);
+      if (!on || (!is_known && value != near)) continue;
+      if (!*on) return end_before(piece, side, good, value);
       good = value;
     }
     // At the end of the range itself another point may come first, which no value beside has.
@@ -235,25 +234,27 @@ class LoadsOverParameter {
     cut(piece.start, side, side.end - sense * closest_bracket * width_);
   }
 
-  bool is_first(const LoadPiece& piece, const CriticalCurve& curve, double mu) {
+  /// Does the point of the piece come first at this value? Nothing: what comes first there is unresolved and may hide it.
+  std::optional<bool> is_first(const LoadPiece& piece, const CriticalCurve& curve, double mu) {
     const FirstUnwanted& first = first_at(mu);
-    if (!first.point || (first.point->kind != piece.of && !is_alone(mu))) return false;
+    if (!first.point) return false;
     const auto here = point_of_curve(curves_, piece.start, curve, mu, at_degeneracy * width_);
-    const double lambda = first.point->hit.point.lambda;
-    return here && std::abs(here->lambda - lambda) <= same_load * (1 + std::abs(lambda));
+    const bool alone = first.point->kind != piece.of && is_alone(mu);
+    return here ? is_of_piece(*first.point, piece.of, alone, here->lambda) : false;
   }
 
   /// Does it come first just before a degeneracy of its curve between both values, and just behind not any more? Then it ends
   /// there, and no bracket has to be halved beside it, where two points of the path are hard to tell apart.
   bool ends_at_degeneracy(const LoadPiece& piece, Side& side, double good, double bad) {
-    const double room = at_degeneracy * width_;
+    const double sense = bad > good ? 1 : -1, room = sense * at_degeneracy * width_;
     for (std::size_t i = 0; i < side.curve.hits.size(); ++i) {
       const CriticalHit& hit = side.curve.hits[i];
-      const double mu = hit.point.mu, sense = bad > good ? 1 : -1;
-      if (hit.kind == Degeneracy::user || hit.kind == Degeneracy::extremum ||
-          sense * (mu - good) <= room || sense * (bad - mu) <= room ||
-          !is_first(piece, side.curve, mu - sense * room) ||
-          is_first(piece, side.curve, mu + sense * room))
+      const double mu = hit.point.mu;
+      if (!may_decide(hit) || sense * (mu - good) <= 0 || sense * (bad - mu) <= 0) continue;
+      const double before = sense * (mu - room - good) > 0 ? mu - room : good;
+      const double behind = sense * (bad - mu - room) > 0 ? mu + room : bad;
+      if (!is_first(piece, side.curve, before).value_or(true) ||
+          is_first(piece, side.curve, behind).value_or(false))
         continue;
       side.decides = hit.kind;
       end_at(side, piece.of, i);
@@ -267,12 +268,11 @@ class LoadsOverParameter {
     if (ends_at_degeneracy(piece, side, good, bad)) return;
     while (std::abs(bad - good) > closest_bracket * width_) {
       const double middle = good + 0.5 * (bad - good);
-      (is_first(piece, side.curve, middle) ? good : bad) = middle;
+      (is_first(piece, side.curve, middle).value_or(false) ? good : bad) = middle;
       known_.erase(middle);
     }
     const auto near = [&](const CriticalHit& hit) {
-      return hit.kind != Degeneracy::user && hit.kind != Degeneracy::extremum &&
-             std::abs(hit.point.mu - good) <= at_degeneracy * width_;
+      return may_decide(hit) && std::abs(hit.point.mu - good) <= at_degeneracy * width_;
     };
     const auto hit = std::find_if(side.curve.hits.begin(), side.curve.hits.end(), near);
     if (hit != side.curve.hits.end()) {
@@ -298,7 +298,7 @@ class LoadsOverParameter {
   /// Just beside a value at which what comes first stands alone there may be pieces that end before the next value.
   /// @returns false where it is not known what comes first there
   bool look_beside(double mu) {
-    for (const double side : both_senses) {
+    for (const double side : {-1.0, 1.0}) {
       const double beside = mu + side * next_piece * width_;
       if (beside < low_ || beside > high_) continue;
       const FirstUnwanted& first = first_at(beside);

@@ -351,7 +351,8 @@ std::optional<CriticalPoint> polish_critical(const Family& family, const Critica
   if (holds_modes(start)) {
     const HeldFamily held(family, start);
     const auto point = polish_critical(held.family(), held.start());
-    if (!point || held.unfolding(*point) > kept_within) return std::nullopt;
+    // A start off the path by its modes is held there: the residual that is left grows with the square of that.
+    if (!point || held.unfolding(*point) > function_noise) return std::nullopt;
     return held.own(*point);
   }
   const auto system = system_at(family, start);

@@ -252,5 +252,94 @@ TEST(UserEvent, BesideABranchPointIsOnItsOwnBranch) {
     }
 }
 
+/// x = sin l, from l = -0.5 on.
+Curve along_a_sine(const std::vector<Event>& events) {
+  const ScalarProblem sine{[](double x, double l) { return x - std::sin(l); },
+                           [](double, double) { return 1.0; },
+                           [](double, double l) { return -std::cos(l); }};
+  return follow(sine, at(std::sin(-0.5), -0.5, 1, 1), events);
+}
+
+TEST(Events, AreMetHoweverSteeplyTheyChangeTheirSign) {
+  const std::vector<std::function<double(double)>> steep{[](double u) { return std::tanh(100 * u); },
+                                                         [](double u) { return std::tanh(300 * u); },
+                                                         [](double u) { return std::tanh(300 * u) + 0.2; },
+                                                         [](double u) { return std::tanh(1e4 * u); },
+                                                         [](double u) { return std::atan(1e9 * u); },
+                                                         [](double u) { return std::cbrt(u); },
+                                                         [](double u) { return u < 0 ? -1.0 : 1.0; },
+                                                         [](double u) { return u < 0 ? -1.0 : 5.0; }};
+  const double shift = std::atanh(0.2) / 300;
+  for (std::size_t i = 0; i < steep.size(); ++i)
+    for (const double place : {-0.31, 0.0123, 0.2, 0.4567, 0.71}) {
+      SCOPED_TRACE(i);
+      SCOPED_TRACE(place);
+      const Curve curve = along_a_sine(
+          {stop_where("steep", [&](const CurvePoint& p) { return steep[i](p.lambda - place); }),
+           lambda_reaches(1)});
+      EXPECT_EQ(curve.stop, StopReason::event);
+      EXPECT_EQ(curve.stop_detail, "steep");
+      ASSERT_FALSE(curve.hits.empty());
+      EXPECT_NEAR(curve.hits.back().point.lambda, i == 2 ? place - shift : place, 1e-9);
+    }
+}
+
+TEST(Events, AreMetJustBeforeTheirValueIsNoNumberAnyMore) {
+  for (const double level : {0.05, 1e-3}) {
+    const Curve curve = along_a_sine(
+        {stop_where("root", [=](const CurvePoint& p) { return std::sqrt(0.2 - p.lambda) - level; }),
+         lambda_reaches(1)});
+    EXPECT_EQ(curve.stop_detail, "root");
+    EXPECT_NEAR(curve.hits.back().point.lambda, 0.2 - level * level, 1e-9);
+  }
+}
+
+TEST(Events, EndTheCurveWhereTheyFallToZeroAndAreNoNumberFromThereOn) {
+  const auto until = [](double u) { return u < 0.2 ? u - 0.2 : std::nan(""); };
+  const Curve curve =
+      along_a_sine({stop_where("until", [=](const CurvePoint& p) { return until(p.lambda); }),
+                    lambda_reaches(1)});
+  EXPECT_EQ(curve.stop, StopReason::step_too_small);
+  EXPECT_THAT(curve.stop_detail, HasSubstr("until"));
+  EXPECT_NEAR(curve.points.back().lambda, 0.2, 1e-3);
+  const auto far = [](double u) { return u < 0.2 ? 1 + u : std::nan(""); };
+  EXPECT_EQ(along_a_sine({stop_where("far", [=](const CurvePoint& p) { return far(p.lambda); }),
+                          lambda_reaches(1)})
+                .stop_detail,
+            lambda_reaches(1).name);
+}
+
+/// x^3 - tanh(K (l - a)) x = 0: x = 0 is crossed at a. It does not say that it is symmetric, so nothing is counted.
+struct SteepEigenvalue {
+  double K = 1, a = 0;
+  static Index size() { return 1; }
+  double rate(double l) const { return std::tanh(K * (l - a)); }
+  bool residual(const Vector& x, double l, Vector& F) const {
+    F = Vector::Constant(1, (x[0] * x[0] - rate(l)) * x[0]);
+    return true;
+  }
+  bool derivatives(const Vector& x, double l, Matrix& dF_dx, Vector& by_l) const {
+    dF_dx = Matrix::Constant(1, 1, 3 * x[0] * x[0] - rate(l));
+    by_l = Vector::Constant(1, -K * (1 - rate(l) * rate(l)) * x[0]);
+    return true;
+  }
+};
+
+TEST(BranchPoints, AreNotPassedWhereTheEigenvalueChangesItsSignSteeply) {
+  for (const double K : {30.0, 100.0, 300.0, 1e3, 1e4, 1e6})
+    for (const double a : {-0.3123, -0.071, 0.2222, 0.5, 0.777}) {
+      SCOPED_TRACE(K);
+      SCOPED_TRACE(a);
+      const Curve curve = trace(SteepEigenvalue{K, a}, Vector::Zero(1), -0.5,
+                                Ray{{}, {Vector::Zero(1), 1}}, {lambda_reaches(1)}, {});
+      const bool told = std::any_of(curve.hits.begin(), curve.hits.end(), [&](const Hit& hit) {
+        return (hit.kind == HitKind::branch_point || hit.kind == HitKind::unresolved) &&
+               std::abs(hit.point.lambda - a) < 1e-3;
+      });
+      EXPECT_TRUE(told || curve.stop != StopReason::event);
+      EXPECT_TRUE(K > 100 || hits_of(curve, HitKind::branch_point).size() == 1);
+    }
+}
+
 }  // namespace
 }  // namespace springfold::continuation

@@ -98,6 +98,18 @@ TEST(Hilltops, MoveAtTheRateOfTheClosedForm) {
   EXPECT_EQ(rate->dx.size(), 3);
 }
 
+TEST(Hilltops, ArePolishedOnlyFromPlacesOnTheirPath) {
+  const Family family = units(3, 0);
+  auto start = hilltop_start(family, turn_of_all(3, 2), together(3));
+  ASSERT_TRUE(start);
+  start->x += 1e-4 * Vector::Ones(3);
+  const auto point = polish_critical(family, *start);
+  ASSERT_TRUE(point);
+  EXPECT_NEAR(point->lambda, load_at(2), 1e-12);
+  start->x += 1e-4 * Vector{{1, -2, 1}};  // along the modes that are held
+  EXPECT_FALSE(polish_critical(family, *start));
+}
+
 TEST(Hilltops, HaveNoCurveOverAParameterThatPartsTheUnits) {
   const Family family = units(2, 0);
   const auto start = hilltop_start(family, turn_of_all(2, 2), together(2));

@@ -132,6 +132,34 @@ Hit hit_of(const Event& event, CurvePoint point, double before, double after) {
           .tag = event.tag};
 }
 
+/// @pre the value is defined at one end of the step, not at the other. Zeros up to where that changes.
+bool add_where_defined(const TestedStep& arc, const Event& event, std::span<const double> values,
+                       double s, std::vector<Hit>& found) {
+  const bool at_begin = std::isfinite(values.front());
+  const SampledFunction value = value_on(arc, event, values);
+  const auto is_defined = [&](double ds) {
+    const auto there = value(ds);
+    return there && std::isfinite(*there);
+  };
+  double inside = at_begin ? 0 : arc.length(), outside = arc.length() - inside;
+  while (std::abs(outside - inside) > one_place * arc.length()) {
+    const double middle = 0.5 * (inside + outside);
+    (is_defined(middle) ? inside : outside) = middle;
+  }
+  const double a = at_begin ? 0 : inside, b = at_begin ? inside : arc.length();
+  // So near to where it ends it would have to fall steeper than one to be zero there.
+  if (!(b - a > 2 * together)) return !at_begin || std::abs(values.front()) > 2 * together;
+  const ZeroSearch search = find_zeros(value, a, b, 0, one_place * arc.length());
+  for (const ZeroOf& zero : search.zeros) {
+    auto point = zero.touches || !(zero.at > 0) ? std::nullopt : arc.point_once(zero.at);
+    if (point) found.push_back(hit_of(event, std::move(*point), s + zero.before, s + zero.after));
+  }
+  // Where it falls to zero just as it ends it is not told what happens.
+  const auto edge = value(inside);
+  const std::array<double, 2> ends{at_begin ? values.front() : values.back(), edge.value_or(0)};
+  return search.resolved && (!search.zeros.empty() || !within_reach(ends));
+}
+
 /// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
 /// the step before; zeros without change of sign do not count.
 /// @param known  at `from`, or nullptr
@@ -150,6 +178,8 @@ bool add_user_event(const TestedStep& arc, Samples samples, const Event& event,
     scale = std::max(scale, std::abs(end.value));
     noise = std::max(noise, end.noise);
   }
+  if (std::isfinite(values.front()) != std::isfinite(values.back()))
+    return add_where_defined(arc, event, values, from.s, found);
   // Ends that lie on the event to rounding lie on it, for this step and for its neighbour.
   noise = std::max(noise, refined_step * scale);
   for (double* outer : {&values.front(), &values.back()})

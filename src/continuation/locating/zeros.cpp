@@ -2,100 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <utility>
 
+#include "continuation/locating/features.hpp"
 #include "continuation/points/chebyshev.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
 namespace {
-
-/// Zero of g between a and b, where it has opposite signs.
-template <class Function>
-double bisect(Function g, double a, double b) {
-  const double ga = g(a), gb = g(b);
-  if (ga == 0 || gb == 0) return ga == 0 ? a : b;
-  if (!((ga < 0 && gb > 0) || (ga > 0 && gb < 0))) return 0.5 * (a + b);  // not a number
-  std::uintmax_t most = 100;
-  const auto close = [=](double l, double r) {
-    return std::abs(r - l) <= few_roundings * std::max(std::abs(l), std::abs(r));
-  };
-  const auto [low, high] = boost::math::tools::toms748_solve(g, a, b, ga, gb, close, most);
-  return 0.5 * (low + high);
-}
-
-constexpr int grid = 200;
-
-double grid_place(const Interpolant& p, int i) {
-  return i == grid ? p.b : p.a + (p.b - p.a) * i / grid;
-}
-
-/// An extremum that reaches the level beside a cell of the grid in which the interpolant crosses zero: the values there do not
-/// show it, one being on the other side of zero, and the next one small already; the slopes do.
-void add_extrema_beside(const Interpolant& p, int crossed, double level,
-                        std::vector<double>& places) {
-  constexpr int hidden = 3;
-  const int first = std::max(0, crossed - hidden), last = std::min(grid, crossed + 1 + hidden);
-  double before = p.first_slope(grid_place(p, first));
-  for (int i = first; i < last; ++i) {
-    const double next = p.first_slope(grid_place(p, i + 1));
-    const double place =
-        grid_place(p, i) + (p.b - p.a) / grid * std::clamp(before / (before - next), 0.0, 1.0);
-    if (i != crossed && (before < 0) != (next < 0) && std::abs(p.first(place)) <= level)
-      places.push_back(place);
-    before = next;
-  }
-}
-
-/// Where the interpolant crosses zero, or has an extremum that reaches the level.
-std::vector<double> features_of(const Interpolant& p, double level) {
-  std::vector<double> places;
-  std::vector<int> crossed;
-  const auto t = [&](int i) { return grid_place(p, i); };
-  double before = p.first(t(0)), here = p.first(t(1));
-  if ((before < 0) != (here < 0)) crossed.push_back(0);
-  for (int i = 1; i < grid; ++i) {
-    const double next = p.first(t(i + 1));
-    const bool crosses = (here < 0) != (next < 0);
-    const bool turns = std::abs(here) <= std::abs(before) && std::abs(here) <= std::abs(next) &&
-                       (before < 0) == (next < 0);
-    // A parabola that touches zero half-way between two points is an eighth of its second difference
-    // off at them.
-    const double reach = std::max(level, std::abs(before - 2 * here + next) / 4);
-    if (crosses) crossed.push_back(i);
-    if (turns && std::abs(here) <= reach) places.push_back(t(i));
-    before = here;
-    here = next;
-  }
-  for (const int i : crossed) {
-    places.push_back(t(i));
-    add_extrema_beside(p, i, level, places);
-  }
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  // A turn between an end and its neighbour does not show on the grid.
-  if (places.empty() || places.front() > t(1))
-    if (std::abs(p.first(t(0))) <= level) places.insert(places.begin(), t(0));
-  if (places.empty() || places.back() < t(grid - 1))
-    if (std::abs(p.first(t(grid))) <= level) places.push_back(t(grid));
-  return places;
-}
-
-/// The interval's ends and the polynomial's extrema between them.
-std::vector<double> extrema_of(const Interpolant& p, double a, double b, double spacing) {
-  const int pieces = std::max(24, static_cast<int>((b - a) / spacing));
-  const auto slope = [&](double t) { return p.first_slope(t); };
-  std::vector<double> knots{a};
-  for (int i = 0; i < pieces; ++i) {
-    const double l = a + (b - a) * i / pieces, r = a + (b - a) * (i + 1) / pieces;
-    if ((slope(l) < 0) != (slope(r) < 0)) knots.push_back(bisect(slope, l, r));
-  }
-  knots.push_back(b);
-  return knots;
-}
 
 class ZeroFinder {
  public:
@@ -140,8 +56,9 @@ class ZeroFinder {
     // Zero all along: a family, not a point; or a point too flat to be resolved.
     if (scale <= noise_) return depth > 0 ? give_up() : void();
     const bool last = b - a < resolution_ || depth > 24;
+    const bool crosses = p.values.minCoeff() < 0 && p.values.maxCoeff() > 0;
     if (!last && fit.error > std::max(touching * scale, noise_)) {
-      if (least < 0.5 * scale) split(a, b, depth);
+      if (crosses || least < 0.5 * scale) split(a, b, depth);
       return;
     }
     const std::vector<double> places = features_of(p, level_of(fit.error, scale));
@@ -167,7 +84,7 @@ class ZeroFinder {
     const double from = std::max(p.a, first - margin * length),
                  to = std::min(p.b, end + margin * length);
     if (last) {
-      if (comes_from_zero(p)) return true;
+      if (comes_from_zero(p) || bracketed(p)) return true;
       if (first != end || fit.error > together * scale || !locate(fit, first, end, true)) give_up();
       return true;
     }
@@ -190,6 +107,24 @@ class ZeroFinder {
     };
     const bool at_end = (p.a == low_ && is_zero(low_)) || (p.b == high_ && is_zero(high_));
     return at_end && (p.values.minCoeff() >= 0 || p.values.maxCoeff() <= 0);
+  }
+
+  /// Functions of the caller may be steeper than anything that is resolved, or jump: their one change of sign is a zero.
+  bool bracketed(const Interpolant& p) {
+    if (noise_is_ != NoiseIs::threshold) return false;
+    const auto signs = (p.values.row(0).array() < 0).eval();
+    if ((signs.head(signs.size() - 1) != signs.tail(signs.size() - 1)).count() != 1) return false;
+    double left = p.a, right = p.b;
+    const auto at_left = f_(left);
+    while (true) {
+      const double middle = 0.5 * (left + right);
+      if (!(left < middle && middle < right)) break;
+      const auto value = f_(middle);
+      if (!at_left || !value || std::isnan(*value)) return false;
+      ((*value < 0) == (*at_left < 0) ? left : right) = middle;
+    }
+    add({.at = right, .before = left, .after = right, .off = right - left});
+    return true;
   }
 
   void give_up() { result.resolved = false; }
@@ -250,7 +185,7 @@ class ZeroFinder {
     const bool as_good = fit.error <= noise_ && noise_is_ != NoiseIs::threshold;
     if (as_good) {
       for (const double share : uneven_shares<8>()) look_at(p.a + share * (p.b - p.a));
-      for (const int cells : {-2, -1, 1, 2}) look_at(t + cells * (p.b - p.a) / grid);
+      for (const int cells : {-2, -1, 1, 2}) look_at(t + cells * (p.b - p.a) / feature_cells);
     }
     const double bound = std::max(noise_, 30 * fit.error);
     fit.measured =
@@ -283,7 +218,7 @@ class ZeroFinder {
 
   /// Is the polynomial lost in its noise all the way from one place to another?
   bool lost_between(const Fit& fit, double left, double right) const {
-    const double cell = (fit.polynomial->b - fit.polynomial->a) / grid;
+    const double cell = (fit.polynomial->b - fit.polynomial->a) / feature_cells;
     for (double t = left + 0.5 * cell; t < right; t += 0.5 * cell)
       if (!is_lost(fit, t, fit.polynomial->first(t))) return false;
     return true;
@@ -296,7 +231,7 @@ class ZeroFinder {
   /// @returns false when the polynomial is not accurate enough to tell a touch from others
   bool locate(const Fit& fit, double first, double end, bool best) {
     const Interpolant& p = *fit.polynomial;
-    const double cell = 1.001 * (p.b - p.a) / grid, error = fit.error;
+    const double cell = 1.001 * (p.b - p.a) / feature_cells, error = fit.error;
     const auto value = [&](double t) { return p.first(t); };
     const double scale = p.values.cwiseAbs().maxCoeff();
     const bool accurate = best || error <= std::max(noise_, one_place * scale);
