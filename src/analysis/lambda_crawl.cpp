@@ -11,7 +11,7 @@ namespace springfold::analysis {
 namespace {
 
 /// Lambda crawls where x moves by less than this share of it.
-constexpr double alone = 1.0 / 8;
+constexpr double barely_moves = 1.0 / 8;
 
 /// A curve has become steeper by orders of magnitude.
 constexpr double much_steeper = 16;
@@ -69,7 +69,7 @@ Crawl LambdaCrawl::sees(const continuation::CurvePoint& point) {
   const double dx = length_in(weights_, point.x - last_.x),
                dlambda = std::abs(point.lambda - last_.lambda);
   const bool trivial = !(slope_at_start_ > 0);
-  if (!(dx < alone * dlambda) || (!trivial && !(dx > 0))) {
+  if (!(dx < barely_moves * dlambda) || (!trivial && !(dx > 0))) {
     count_from(point);
     return Crawl::none;
   }

@@ -6,6 +6,7 @@
 
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/numerics.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/inertia.hpp"
 
 namespace springfold::analysis {
@@ -104,7 +105,7 @@ std::optional<SwitchPlaces> places_at(const PathProblem& problem,
                         std::abs(point.lambda) * linear.dF_dlambda.cwiseAbs())
                            .lpNorm<Eigen::Infinity>();
   const double size = std::max({1.0, point.x.lpNorm<Eigen::Infinity>(), std::abs(point.lambda)});
-  const Matrix answers = bordered.transpose().partialPivLu().solve(gradients);
+  const Matrix answers = Lu(bordered.transpose()).solve(gradients);
   at.rates = has_tangent ? Vector(dg * point.tangent.dx + point.tangent.dlambda * dg_dlambda)
                          : Vector(Vector::Zero(at.g.size()));
   at.rounding.resize(at.g.size());

@@ -65,16 +65,26 @@ std::unique_ptr<CaseCurves> curves_about_zero(const Study& study, std::size_t nu
   return best;
 }
 
-/// A point without a rate, and why, where that is known.
-struct LostRate {
-  std::string label{}, why{};
+/// A point without rates by some parameters for one reason, where that is known.
+struct LostRates {
+  std::string label{}, why{}, parameters{};
 };
 
-void say_lost(const std::vector<LostRate>& lost, const std::string& parameter, BasePath& path) {
-  for (const LostRate& one : lost)
+void add_lost(const std::string& label, const std::string& why, const std::string& parameter,
+              std::vector<LostRates>& lost) {
+  for (LostRates& one : lost)
+    if (one.label == label && one.why == why) {
+      one.parameters += ", " + parameter;
+      return;
+    }
+  lost.push_back({label, why, parameter});
+}
+
+void say_lost(const std::vector<LostRates>& lost, BasePath& path) {
+  for (const LostRates& one : lost)
     for (Event& event : path.branch.events)
       if (event.label == one.label)
-        event.detail += "; no rate by " + parameter + (one.why.empty() ? "" : ": " + one.why);
+        event.detail += "; no rate by " + one.parameters + (one.why.empty() ? "" : ": " + one.why);
 }
 
 /// Columns of the laws of imperfections; what other rows do not have is undefined.
@@ -144,6 +154,7 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
   std::vector<std::size_t> columns;
   std::vector<PointLaws> laws;
   std::size_t lambda = 0;  // which of the rated columns
+  std::vector<LostRates> lost;
   for (const std::string& parameter : parameters_of(study)) {
     const auto number =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), parameter) - names.begin());
@@ -171,7 +182,6 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
     const Member& base = curves.base();
     for (const std::size_t i : columns)
       result.quantities.push_back({name_of(base.quantities()[i].name, parameter), Unit::none});
-    std::vector<LostRate> lost;
     for (std::size_t k = 0; k < path.points.size(); ++k) {
       const SpecialPoint& point = path.points[k];
       std::string why;
@@ -179,13 +189,13 @@ void run_sensitivity(const Study& study, const Observer& observer, StudyResult& 
       const bool has_rates =
           laws[k].enter(curves, rates ? (*rates)[static_cast<Index>(lambda)] : undefined);
       if (!has_rates) rates.reset();
-      if (!rates || std::isnan((*rates)[0])) lost.push_back({point.label, why});
+      if (!rates || std::isnan((*rates)[0])) add_lost(point.label, why, parameter, lost);
       auto& values = path.branch.samples[point.row].values;
       for (std::size_t i = 0; i < columns.size(); ++i)
         values.push_back(rates ? (*rates)[static_cast<Index>(i)] : undefined);
     }
-    say_lost(lost, parameter, path);
   }
+  say_lost(lost, path);
   add_laws(study, laws, path, result);
   result.branches.push_back(std::move(path.branch));
 }

@@ -12,7 +12,9 @@
 #include "lambda_crawl.hpp"
 #include "limits.hpp"
 #include "run_traced.hpp"
+#include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "stability_changes.hpp"
 #include "start.hpp"
 #include "start_hits.hpp"
@@ -88,6 +90,25 @@ std::string motions_text(const StartReport& start) {
 std::string why_not_ordinary(const continuation::Rays& rays) {
   return rays.why.empty() ? std::to_string(rays.rays.size()) + " ways lead out of it" : rays.why;
 }
+
+/// Do forces alone change along the direction that the equations leave at the start? What is driven is rigid there.
+bool only_forces_change(const PathProblem& problem, const CurvePoint& start) {
+  continuation::Linearisation at;
+  if (!continuation::linearise_densely(problem, start.x, start.lambda, start.piece, at))
+    return false;
+  const Index n = start.x.size();
+  Matrix J(n, n + 1);
+  J << at.dF_dx, at.dF_dlambda;
+  const Vector way = jacobi_svd(J, SingularVectors::none, SingularVectors::full).V.col(n);
+  const Vector moves = problem.metric().cwiseSqrt().cwiseProduct(way.head(n));
+  return std::hypot(moves.norm(), way[n]) <= same_rank;
+}
+
+constexpr const char* rigid_where_driven =
+    "what is driven is rigid here: forces alone can change, as where links are stretched out along "
+    "the drive; with control = \"load\" the state is followed through its buckling load, and a "
+    "start a "
+    "little off the straight one, or an elastic link, has a curve";
 
 /// Slopes at the start, on both sides.
 void report_rates(const Tracing& t, const CurvePoint& start, const continuation::Rays& rays,
@@ -165,9 +186,12 @@ void add_branch_of_start(const Tracing& t, const CurvePoint& start, StudyResult&
     return result.branches.push_back(not_traced(t, start, "interrupted at the start"));
   const auto rays =
       rays_from(t.problem, start.x, start.lambda, start.piece, options_of(t.study.trace));
-  result.branches.push_back(not_traced(t, start,
-                                       "no curve was found to leave the start: " +
-                                           why_not_ordinary(rays) + motions_text(result.start)));
+  const std::string why =
+      t.study.control != ControlMode::load && only_forces_change(t.problem, start)
+          ? rigid_where_driven
+          : why_not_ordinary(rays);
+  result.branches.push_back(not_traced(
+      t, start, "no curve was found to leave the start: " + why + motions_text(result.start)));
 }
 
 }  // namespace springfold::analysis

@@ -217,7 +217,9 @@ critical_curve = { of = "LP2", parameter = "s1", range = [-0.1958, 0.0742] }
 
 /// A point on two slides whose knees have springs beyond an angle: 15 degrees that of x, 0.1 that of y. At py = sin(15 deg) the
 /// first one touches at the start itself, where the drives are set.
-std::string two_slides(double py, const std::string& study) {
+std::string two_slides(
+    double py, const std::string& study,
+    const std::string& law = R"(law = "one_sided", stiffness = 0.05, from = "15*deg")") {
   return "[parameters]\npy = " + std::to_string(py) + R"toml(
 [[body]]
 name = "tool"
@@ -227,7 +229,8 @@ pose = [0, 0]
 name = "x"
 elements = [
   { joint = "prismatic", axis = "x", name = "drive", role = "actuated", value = 1, stiffness = 1 },
-  { joint = "revolute", axis = "-z", name = "knee", role = "preloaded", spring = { law = "one_sided", stiffness = 0.05, from = "15*deg" } },
+  { joint = "revolute", axis = "-z", name = "knee", role = "preloaded", spring = { )toml" +
+         law + R"toml( } },
   { rigid = [-1, 0] } ]
 [[chain]]
 name = "y"
@@ -276,6 +279,40 @@ TEST(CriticalCurves, GoOnWhereASpringSwitchesAtTheStartItself) {
       EXPECT_NEAR(value(result, event.row, "lambda"), limits.front(), 1e-9);
     }
     EXPECT_EQ(marks, 4);
+  }
+}
+
+/// Weak kinks are crossed by steps: the curve must not creep there.
+TEST(CriticalCurves, TakeNoMorePointsWhereASpringChangesItsStiffnessALittleAtTheStart) {
+  for (const char* second : {"0.0528", "0.0511", "0.045", "0.04", "0.03"}) {
+    SCOPED_TRACE(second);
+    const std::string law =
+        std::string{"law = \"piecewise_linear\", breakpoints = [\"15*deg\"], "} +
+        "stiffnesses = [0.0529, " + second + "], free = \"15*deg\"";
+    const auto result =
+        run(two_slides(
+                0.2,
+                "kind = \"critical_curve\"\nmark = { py = [0.2587, 0.2589] }\n"
+                "critical_curve = { of = \"LP1\", parameter = \"py\", range = [0.15, 0.35] }\n",
+                law))
+            .of("s");
+    EXPECT_TRUE(result.doubts.empty()) << result.doubts.front();
+    ASSERT_EQ(result.branches.size(), 1u);
+    const analysis::Branch& branch = result.branches.front();
+    EXPECT_TRUE(branch.forward.complete && branch.backward.complete);
+    EXPECT_LT(branch.samples.size(), 150U);
+    int marks = 0;
+    for (const analysis::Event& event : branch.events) {
+      EXPECT_NE(event.kind, analysis::EventKind::unresolved);
+      if (event.kind != analysis::EventKind::user_value) continue;
+      ++marks;
+      const double py = branch.samples[event.row].values.back();
+      const auto path = run(two_slides(py, "kind = \"force_deflection\"\n", law)).of("s");
+      const auto limits = lambdas(path, analysis::EventKind::limit_point);
+      ASSERT_FALSE(limits.empty());
+      EXPECT_NEAR(value(result, event.row, "lambda"), limits.front(), 1e-9);
+    }
+    EXPECT_GE(marks, 2);
   }
 }
 

@@ -198,7 +198,7 @@ PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_r
   if (!(qr.pivots[n - 1] > full_rank * size))
     return equilibrated_ways(walker, at, polished ? full_rank : told_apart);
   auto d = unit(qr.last_column, walker.weights);
-  if (!d) return {.why = "the metric gives the tangent no length"};
+  if (!d) return {.why = "along the curve nothing changes here that the metric measures"};
   // Does lambda stand still? Beside a singular point rounding is in the kernel by the inverse of the least pivot: one inverse
   // iteration takes it out.
   if (std::abs(d->dlambda) <= flat_rate)

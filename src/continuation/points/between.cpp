@@ -22,6 +22,8 @@ struct PointGap {
   CurvePoint from{}, to{};
   std::optional<CurvePoint> middle{};  ///< where one is known between them
   bool counted = false;  ///< the ends' number of negative eigenvalues holds between them as well
+  /// The one special point in it, if there is one: the ends' numbers hold up to it and from there on.
+  std::optional<double> change{};
   bool goes_on = false;  ///< `from` is the end of the gap before, on one smooth curve
 };
 
@@ -53,8 +55,8 @@ class Filler {
     const CurvePoint* middle = known_middle();
     if (!middle && wide && is_exact_at(curve, {0.5})) return on_curve(curve, first, last);
     std::optional<CurvePoint> found;
-    if (!middle && (found = point_near(walker_, curve, gap.from, 0.5 * length_))) middle = &*found;
-    if (!middle) return one_by_one(curve, first, last);
+    if (!middle && (found = inner_point(curve, 0.5 * length_))) middle = &*found;
+    if (!middle || !is_of_gap(*middle)) return one_by_one(curve, first, last);
     if (wide) {
       nodes.insert(nodes.begin() + 2, middle);
       curve = model_of(nodes);
@@ -120,8 +122,9 @@ class Filler {
     std::optional<CurvePoint> inner[2];
     for (int i = 0; i < 2; ++i) {
       const double t = 0.5 * (way(m) + way(i == 0 ? a : b));
-      if (!curve.empty()) inner[i] = point_near(walker_, curve, gap_->from, t);
-      if (!inner[i] || depth > deepest) return one_by_one(curve, first, last);
+      if (!curve.empty()) inner[i] = inner_point(curve, t);
+      if (!inner[i] || !is_of_gap(*inner[i]) || depth > deepest)
+        return one_by_one(curve, first, last);
       curve.evaluate(t, u_, rate_);
       const Index n = u_.size() - 1;
       error = std::max({error, (inner[i]->x - u_.head(n)).lpNorm<Eigen::Infinity>(),
@@ -159,11 +162,28 @@ class Filler {
   void one_by_one(const ArcModel& curve, double first, double last) {
     for (double k = first; k <= last; ++k) {
       CurvePoint point = curve.empty() ? gap_->from : on_model(curve, k);
-      if (!curve.empty() && find_point(walker_, point.piece, gap_->from.tangent, point))
+      if (!curve.empty() && find_point(walker_, point.piece, gap_->from.tangent, point) &&
+          is_of_gap(point))
         result_.points.push_back(std::move(point));
       else
         ++result_.missed;
     }
+  }
+
+  /// Where another branch is nearer than the model is exact, the corrector may find that. A point with another number of
+  /// negative eigenvalues than its place in the gap asks for is not of this curve.
+  bool is_of_gap(const CurvePoint& point) const {
+    std::optional<Index> expected;
+    if (gap_->counted) expected = gap_->from.negative;
+    if (gap_->change && std::abs(point.s - *gap_->change) > told_apart)
+      expected = point.s < *gap_->change ? gap_->from.negative : gap_->to.negative;
+    return !expected || !point.negative || point.negative == expected;
+  }
+
+  std::optional<CurvePoint> inner_point(const ArcModel& curve, double t) const {
+    auto point = point_near(walker_, curve, gap_->from, t);
+    if (point) point->s = gap_->from.s + t / per_s_;
+    return point;
   }
 
   CurvePoint on_model(const ArcModel& curve, double k) const {
@@ -186,11 +206,14 @@ std::vector<PointGap> gaps_of(const std::vector<Stretch>& stretches, const Curve
                               bool counts) {
   std::vector<PointGap> gaps;
   const auto add = [&](const CurvePoint& from, const CurvePoint& to, bool goes_on) {
-    const bool special = std::ranges::any_of(curve.hits, [&](const Hit& hit) {
-      return hit.kind != HitKind::user && hit.point.s >= from.s && hit.point.s <= to.s;
-    });
-    const bool counted = !special && from.negative == to.negative && (from.negative || !counts);
-    gaps.push_back({from, to, std::nullopt, counted, goes_on});
+    std::vector<double> special;
+    for (const Hit& hit : curve.hits)
+      if (hit.kind != HitKind::user && hit.point.s >= from.s && hit.point.s <= to.s)
+        special.push_back(hit.point.s);
+    const bool counted =
+        special.empty() && from.negative == to.negative && (from.negative || !counts);
+    gaps.push_back({from, to, std::nullopt, counted,
+                    special.size() == 1 ? std::optional(special.front()) : std::nullopt, goes_on});
   };
   for (const Stretch& stretch : stretches) {
     // Between pieces, without a kink that was found.
