@@ -261,14 +261,16 @@ Curve along_a_sine(const std::vector<Event>& events) {
 }
 
 TEST(Events, AreMetHoweverSteeplyTheyChangeTheirSign) {
-  const std::vector<std::function<double(double)>> steep{[](double u) { return std::tanh(100 * u); },
-                                                         [](double u) { return std::tanh(300 * u); },
-                                                         [](double u) { return std::tanh(300 * u) + 0.2; },
-                                                         [](double u) { return std::tanh(1e4 * u); },
-                                                         [](double u) { return std::atan(1e9 * u); },
-                                                         [](double u) { return std::cbrt(u); },
-                                                         [](double u) { return u < 0 ? -1.0 : 1.0; },
-                                                         [](double u) { return u < 0 ? -1.0 : 5.0; }};
+  const std::vector<std::function<double(double)>> steep{
+      [](double u) { return std::tanh(100 * u); },
+      [](double u) { return std::tanh(300 * u); },
+      [](double u) { return std::tanh(300 * u) + 0.2; },
+      [](double u) { return std::tanh(1e4 * u); },
+      [](double u) { return std::atan(1e9 * u); },
+      [](double u) { return std::cbrt(u); },
+      [](double u) { return std::copysign(std::pow(std::abs(u), 0.8), u); },
+      [](double u) { return u < 0 ? -1.0 : 1.0; },
+      [](double u) { return u < 0 ? -1.0 : 5.0; }};
   const double shift = std::atanh(0.2) / 300;
   for (std::size_t i = 0; i < steep.size(); ++i)
     for (const double place : {-0.31, 0.0123, 0.2, 0.4567, 0.71}) {

@@ -114,17 +114,32 @@ class ZeroFinder {
     if (noise_is_ != NoiseIs::threshold) return false;
     const auto signs = (p.values.row(0).array() < 0).eval();
     if ((signs.head(signs.size() - 1) != signs.tail(signs.size() - 1)).count() != 1) return false;
-    double left = p.a, right = p.b;
+    const auto zero = bracket(p.a, p.b);
+    if (zero) add(*zero);
+    return zero.has_value();
+  }
+
+  /// By the function's own values, to rounding. @pre its signs at both places differ
+  std::optional<ZeroOf> bracket(double left, double right) const {
     const auto at_left = f_(left);
     while (true) {
       const double middle = 0.5 * (left + right);
       if (!(left < middle && middle < right)) break;
       const auto value = f_(middle);
-      if (!at_left || !value || std::isnan(*value)) return false;
+      if (!at_left || !value || std::isnan(*value)) return std::nullopt;
       ((*value < 0) == (*at_left < 0) ? left : right) = middle;
     }
-    add({.at = right, .before = left, .after = right, .off = right - left});
-    return true;
+    return ZeroOf{.at = right, .before = left, .after = right, .off = right - left};
+  }
+
+  /// A zero at which the function is not smooth enough for a polynomial.
+  ZeroOf placed(const ZeroOf& zero) const {
+    if (noise_is_ != NoiseIs::threshold || zero.touches || zero.several ||
+        zero.off <= promised_place)
+      return zero;
+    const auto before = f_(zero.before), after = f_(zero.after);
+    if (!before || !after || !(*before * *after < 0)) return zero;
+    return bracket(zero.before, zero.after).value_or(zero);
   }
 
   void give_up() { result.resolved = false; }
@@ -291,7 +306,8 @@ class ZeroFinder {
   }
 
   /// Neighbouring cells may see the same zero.
-  void add(const ZeroOf& zero) {
+  void add(const ZeroOf& found) {
+    const ZeroOf zero = placed(found);
     for (const ZeroOf& other : result.zeros)
       if (std::abs(other.at - zero.at) <= 10 * location) return;
     result.zeros.push_back(zero);
