@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "springfold/continuation/numerics.hpp"
+#include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -37,7 +38,8 @@ std::optional<CriticalPoint> point_near(const CaseCurves& curves, CriticalStart 
   start.lambda = guess.lambda;
   start.mu = guess.mu;
   auto point = polish_critical(curves.family(), start);
-  if (!point || distance(*point, guess) > distance(guess, from)) return std::nullopt;
+  const double room = std::max(distance(guess, from), continuation::told_apart);
+  if (!point || distance(*point, guess) > room) return std::nullopt;
   point->dx = from.dx;
   point->dlambda = from.dlambda;
   point->dmu = from.dmu;
@@ -69,7 +71,7 @@ class ShortGap {
     std::vector<bool> stops;
     for (const CriticalEvent& event : events_) {
       const double before = event.value(from), behind = event.value(to);
-      if (!(before * behind < 0)) continue;
+      if (!(before * behind < 0) && (before == 0 || behind != 0)) continue;
       met.push_back({.name = event.name, .point = zero_of(event, from, to), .tag = event.tag});
     }
     std::stable_sort(met.begin(), met.end(), [](const CriticalHit& a, const CriticalHit& b) {
@@ -131,6 +133,36 @@ void append(CriticalCurve piece, CriticalCurve& curve) {
   curve.missed += piece.missed;
 }
 
+/// Does no switch contradict the piece on which the point is followed? Those that are zero there do not.
+bool is_on_piece(const CaseCurves& curves, const CriticalStart& start, const CriticalPoint& point) {
+  constexpr double zero = continuation::promised_place;
+  const Member* member = curves.equations_at(point.mu);
+  Vector g;
+  if (member == nullptr || !member->problem->switches(point.x, point.lambda, g)) return false;
+  for (Index j = 0; j < g.size(); ++j)
+    if (g[j] * start.piece[static_cast<std::size_t>(j)] < -zero) return false;
+  return true;
+}
+
+/// A curve that comes round to a kink once more has passed its start: there it ends.
+/// @param s  behind this
+void close(double s, CriticalCurve& curve) {
+  const CriticalPoint start = curve.points.front();
+  curve.stop = continuation::StopReason::closed;
+  curve.stop_detail.clear();
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    const CriticalPoint &a = curve.points[i - 1], &b = curve.points[i];
+    const double length = distance(a, b);
+    if (a.s < s || distance(a, start) > length || distance(b, start) > length) continue;
+    const double end = a.s + distance(a, start);
+    std::erase_if(curve.hits, [&](const CriticalHit& hit) { return hit.point.s > end; });
+    curve.points.resize(i);
+    curve.points.push_back(start);
+    curve.points.back().s = end;
+    return;
+  }
+}
+
 /// A curve up to just before a kink, or to its end.
 struct Stretch {
   CriticalCurve curve{};
@@ -155,6 +187,12 @@ class Follower {
   /// as far ahead as differences reach.
   Stretch to_kink(const CriticalStart& from, bool growing) const {
     const bool watches = curves_.start_enters_equations() && !from.piece.empty();
+    if (watches)
+      if (auto beside = beside_kink_at(from, growing ? 1 : -1)) return *beside;
+    return from_place(from, growing, watches);
+  }
+
+  Stretch from_place(const CriticalStart& from, bool growing, bool watches) const {
     CriticalPoint last{.x = from.x, .lambda = from.lambda, .mu = from.mu};
     std::optional<double> crossed;
     const Observer watch = [&](const CriticalPoint& p) {
@@ -185,7 +223,7 @@ class Follower {
       start.x = first->x;
       start.lambda = first->lambda;
       start.mu = first->mu;
-      Stretch next = to_kink(start, last.dmu > 0);
+      Stretch next = from_place(start, last.dmu > 0, curves_.start_enters_equations());
       if (next.curve.points.size() < 2 && next.curve.hits.empty() && !next.kink) continue;
       return next;
     }
@@ -201,6 +239,22 @@ class Follower {
   bool differ(double a, double b) const {
     const Piece here = piece_at(a), there = piece_at(b);
     return !here.empty() && here.size() == there.size() && here != there;
+  }
+
+  /// A start so near to a kink that differences reach across it, whichever way it leaves: it is the stretch up to the kink, or
+  /// stands for the kink itself.
+  std::optional<Stretch> beside_kink_at(const CriticalStart& from, double sense) const {
+    const bool ahead = differ(from.mu, from.mu + sense * beside_kink);
+    if (!ahead && !differ(from.mu, from.mu - sense * beside_kink)) return std::nullopt;
+    const auto place = ahead ? switching_start(curves_, from.mu, from.mu + sense * beside_kink)
+                             : std::optional(std::pair{from.mu, std::string{}});
+    const auto point = polish_critical(curves_.family(), from);
+    if (!place || !point) return std::nullopt;
+    Stretch found{.kink = place->first};
+    found.curve.points = {*point};
+    found.curve.points.front().dx = Vector::Zero(point->x.size());
+    found.curve.points.front().dmu = sense;
+    return found;
   }
 
   std::optional<double> kink_near_end(const CriticalCurve& curve) const {
@@ -292,21 +346,26 @@ CriticalCurve follow_over_kinks(const CaseCurves& curves, const CriticalStart& s
   Stretch stretch = follower.to_kink(start, growing);
   CriticalCurve& curve = stretch.curve;
   std::vector<CriticalPoint> passed;
-  while (stretch.kink && !curve.points.empty() && std::ssize(passed) < most_kinks) {
+  while (stretch.kink && !curve.points.empty()) {
     const CriticalPoint last = curve.points.back();
-    if (last.dmu == 0) break;
+    // Until it goes on, the curve ends here.
+    curve.stop = continuation::StopReason::step_too_small;
+    curve.stop_detail = "the curve could not be followed over " + curves.name() + " = " +
+                        rounded(*stretch.kink * curves.scale()) +
+                        ", where a spring switches at the start";
+    if (last.dmu == 0 || std::ssize(passed) == most_kinks) break;
     const auto kink = point_near(curves, start, on_line(last, last, *stretch.kink), last);
-    if (!kink) break;
+    if (!kink || !is_on_piece(curves, start, *kink)) break;
     const auto is_kink = [&](const CriticalPoint& other) {
       return other.dmu * last.dmu > 0 && distance(other, *kink) <= continuation::told_apart;
     };
     if (std::any_of(passed.begin(), passed.end(), is_kink)) {
-      curve.stop = continuation::StopReason::closed;
+      close(passed.front().s, curve);
       break;
     }
     passed.push_back(*kink);
     auto next = follower.from_kink(*kink, last);
-    if (!next) break;
+    if (!next || !is_on_piece(curves, start, next->curve.points.front())) break;
     CriticalPoint first = next->curve.points.front();
     first.s = kink->s + distance(first, *kink);
     if (gap.close(*kink, curve) || gap.close(first, curve)) break;

@@ -112,8 +112,6 @@ int judge_all(const Case& the_case, const Results& results,
   for (const PlannedRun* run : results.given_up)
     say(session, run->study + ", run " + std::to_string(run->run) +
                      ": interrupted in the middle of a step: nothing of it is kept");
-  if (code != all_done)  // what the case says and hardly ever means may be why
-    for (const std::string& hint : the_case.hints) say(session, "hint: " + hint);
   const auto how_many = [&](bool interrupted) {
     return std::count_if(comparisons.begin(), comparisons.end(), [&](const io::Comparison& c) {
       return !c.holds && c.is_interrupted == interrupted;

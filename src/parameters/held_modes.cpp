@@ -34,6 +34,26 @@ Matrix across(const Vector& direction) {
   return columns.rightCols(size - 1);
 }
 
+/// Forms C with C^T V = I that vanish on all that the symmetry keeps: W^T D^2F [path, .], since a symmetry that keeps the path
+/// changes the sign of W. Nothing where they say nothing of V, or are V itself.
+Matrix holding_forms(const Family& family, const CriticalStart& at, const Matrix& W,
+                     const Matrix& V, const Vector& path) {
+  const Index n = at.x.size(), h = V.cols();
+  Vector along = Vector::Zero(n + 1);
+  along.head(n) = path;
+  Matrix forms(n, h);
+  for (Index i = 0; i < h; ++i) {
+    const auto form = second_along(family, at.x, at.lambda, at.mu, at.piece, W.col(i), along);
+    if (!form) return {};
+    forms.col(i) = form->head(n);
+  }
+  const Matrix on_V = forms.transpose() * V;
+  const Vector sizes = jacobi_svd(on_V).values;
+  if (!(sizes[h - 1] > poor * forms.norm())) return {};
+  const Matrix C = Lu(on_V).solve(Matrix(forms.transpose())).transpose();
+  return (C - V).norm() <= poor * V.norm() ? Matrix() : C;
+}
+
 }  // namespace
 
 void HeldProblem::add_modes(const Vector& X, Vector& F) const {
@@ -171,26 +191,6 @@ CriticalCurve follow_held(const Family& family, const CriticalStart& start, bool
   return curve;
 }
 
-/// Forms C with C^T V = I that vanish on all that the symmetry keeps: W^T D^2F [path, .], since a symmetry that keeps the path
-/// changes the sign of W. Nothing where they say nothing of V, or are W itself.
-Matrix holding_forms(const Family& family, const CriticalStart& at, const Matrix& W,
-                     const Matrix& V, const Vector& path) {
-  const Index n = at.x.size(), h = V.cols();
-  Vector along = Vector::Zero(n + 1);
-  along.head(n) = path;
-  Matrix forms(n, h);
-  for (Index i = 0; i < h; ++i) {
-    const auto form = second_along(family, at.x, at.lambda, at.mu, at.piece, W.col(i), along);
-    if (!form) return {};
-    forms.col(i) = form->head(n);
-  }
-  const Matrix on_V = forms.transpose() * V;
-  const Vector sizes = jacobi_svd(on_V).values;
-  if (!(sizes[h - 1] > poor * forms.norm())) return {};
-  const Matrix C = Lu(on_V).solve(Matrix(forms.transpose())).transpose();
-  return (C - V).norm() <= poor * V.norm() ? Matrix() : C;
-}
-
 std::optional<CriticalStart> hilltop_start(const Family& family, const CriticalStart& branch_point,
                                            const Direction& path) {
   if (std::abs(path.dlambda) > root_of_rounding * path.dx.norm()) return std::nullopt;
@@ -213,6 +213,10 @@ std::optional<CriticalStart> hilltop_start(const Family& family, const CriticalS
   const bool symmetric = family.at(branch_point.mu)->symmetric();
   start.held_right = symmetric ? start.held_left : Matrix(null->right * across(along));
   start.held_by = holding_forms(family, branch_point, start.held_left, start.held_right, path.dx);
+  // Without forms the modes themselves have to hold: none of them along the path.
+  const Vector on_path = start.held_right.transpose() * path.dx;
+  if (start.held_by.size() == 0 && on_path.norm() > poor * path.dx.norm())
+    start.held_right = null->right * across(along);
   return start;
 }
 

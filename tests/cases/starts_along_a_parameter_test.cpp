@@ -218,9 +218,9 @@ critical_curve = { of = "LP2", parameter = "s1", range = [-0.1958, 0.0742] }
 /// A point on two slides whose knees have springs beyond an angle: 15 degrees that of x, 0.1 that of y. At py = sin(15 deg) the
 /// first one touches at the start itself, where the drives are set.
 std::string two_slides(
-    double py, const std::string& study,
+    const std::string& py, const std::string& study,
     const std::string& law = R"(law = "one_sided", stiffness = 0.05, from = "15*deg")") {
-  return "[parameters]\npy = " + std::to_string(py) + R"toml(
+  return "[parameters]\npy = " + py + R"toml(
 [[body]]
 name = "tool"
 task_space = "xy"
@@ -253,11 +253,11 @@ TEST(CriticalCurves, GoOnWhereASpringSwitchesAtTheStartItself) {
     SCOPED_TRACE(kind);
     const bool of_load = std::string{kind} == "critical_load";
     const auto result =
-        run(two_slides(0.2, "kind = \"" + std::string{kind} +
-                                "\"\nmark = { py = [0.22, 0.2587, 0.2589, 0.3] }\n" + kind +
-                                (of_load ? " = { of = \"loss_of_stability\", values = 9, "
-                                         : " = { of = \"LP1\", ") +
-                                "parameter = \"py\", range = [0.15, 0.35] }\n"))
+        run(two_slides("0.2", "kind = \"" + std::string{kind} +
+                                  "\"\nmark = { py = [0.22, 0.2587, 0.2589, 0.3] }\n" + kind +
+                                  (of_load ? " = { of = \"loss_of_stability\", values = 9, "
+                                           : " = { of = \"LP1\", ") +
+                                  "parameter = \"py\", range = [0.15, 0.35] }\n"))
             .of("s");
     EXPECT_TRUE(result.doubts.empty()) << result.doubts.front();
     ASSERT_EQ(result.branches.size(), 1u);
@@ -273,7 +273,8 @@ TEST(CriticalCurves, GoOnWhereASpringSwitchesAtTheStartItself) {
       if (event.kind != analysis::EventKind::user_value) continue;
       ++marks;
       const double py = branch.samples[event.row].values.back();
-      const auto path = run(two_slides(py, "kind = \"force_deflection\"\n")).of("s");
+      const auto path =
+          run(two_slides(std::to_string(py), "kind = \"force_deflection\"\n")).of("s");
       const auto limits = lambdas(path, analysis::EventKind::limit_point);
       ASSERT_FALSE(limits.empty());
       EXPECT_NEAR(value(result, event.row, "lambda"), limits.front(), 1e-9);
@@ -291,7 +292,7 @@ TEST(CriticalCurves, TakeNoMorePointsWhereASpringChangesItsStiffnessALittleAtThe
         "stiffnesses = [0.0529, " + second + "], free = \"15*deg\"";
     const auto result =
         run(two_slides(
-                0.2,
+                "0.2",
                 "kind = \"critical_curve\"\nmark = { py = [0.2587, 0.2589] }\n"
                 "critical_curve = { of = \"LP1\", parameter = \"py\", range = [0.15, 0.35] }\n",
                 law))
@@ -307,12 +308,49 @@ TEST(CriticalCurves, TakeNoMorePointsWhereASpringChangesItsStiffnessALittleAtThe
       if (event.kind != analysis::EventKind::user_value) continue;
       ++marks;
       const double py = branch.samples[event.row].values.back();
-      const auto path = run(two_slides(py, "kind = \"force_deflection\"\n", law)).of("s");
+      const auto path =
+          run(two_slides(std::to_string(py), "kind = \"force_deflection\"\n", law)).of("s");
       const auto limits = lambdas(path, analysis::EventKind::limit_point);
       ASSERT_FALSE(limits.empty());
       EXPECT_NEAR(value(result, event.row, "lambda"), limits.front(), 1e-9);
     }
     EXPECT_GE(marks, 2);
+  }
+}
+
+TEST(CriticalCurves, BeginAtAKinkAsElsewhere) {
+  for (const char* py : {"\"sin(15*deg)\"", "\"sin(15*deg)+1e-12\"", "\"sin(15*deg)-1e-8\""}) {
+    SCOPED_TRACE(py);
+    const auto result =
+        run(two_slides(py,
+                       "kind = \"critical_curve\"\ncritical_curve = { of = \"LP1\", "
+                       "parameter = \"py\", range = [0.15, 0.35] }\n"))
+            .of("s");
+    EXPECT_TRUE(result.doubts.empty()) << result.doubts.front();
+    ASSERT_EQ(result.branches.size(), 1u);
+    const analysis::Branch& branch = result.branches.front();
+    EXPECT_TRUE(branch.forward.complete && branch.backward.complete);
+    EXPECT_NEAR(branch.samples.front().values.back(), 0.15, 1e-9);
+    EXPECT_NEAR(branch.samples.back().values.back(), 0.35, 1e-9);
+    EXPECT_LT(branch.samples.size(), 100U);
+  }
+}
+
+/// The cusp at p = 0.47955 lies within the differences' reach of the kink at sin(28.66 deg) = 0.47962.
+TEST(CriticalCurves, SayWhereTheyCannotBeFollowedOverAKink) {
+  const std::string law = R"(law = "one_sided", stiffness = 0.05, from = "28.66*deg")";
+  for (const char* study : {"kind = \"critical_curve\"\ncritical_curve = { of = \"LP1\", parameter "
+                            "= \"py\", range = [0.05, "
+                            "0.6] }\n",
+                            "kind = \"critical_load\"\ncritical_load = { of = \"limit_point\", "
+                            "parameter = \"py\", range = "
+                            "[0.3, 0.6], values = 4 }\n",
+                            "kind = \"threshold\"\nthreshold = { of = \"limit_point\", parameter = "
+                            "\"py\", range = [0.3, 0.6] "
+                            "}\n"}) {
+    SCOPED_TRACE(study);
+    const auto result = run(two_slides("0.35", study, law)).of("s");
+    EXPECT_FALSE(analysis::complete(result) && result.doubts.empty());
   }
 }
 

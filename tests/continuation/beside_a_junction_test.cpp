@@ -112,6 +112,7 @@ TEST(BesideAJunction, BranchPointsThatCannotBeToldFromTheirSurroundingsAreSaidTo
   for (const double d : {0.002, 0.0015, 0.001, 0.0007}) {
     SCOPED_TRACE(d);
     const Diagram diagram = around_zero(MixedModes{.d = d, .m = 0.3}, {}, 1);
+    ASSERT_EQ(first_branches(diagram).size(), 2U);
     for (const Branch* branch : first_branches(diagram)) {
       const auto& hits = branch->curve.hits;
       EXPECT_TRUE(std::any_of(hits.begin(), hits.end(), [d](const Hit& hit) {

@@ -79,6 +79,8 @@ std::vector<Index> tangential_surfaces(const Walker& walker, const CurvePoint& j
       !walker.problem.switches(way.start.x, way.start.lambda, g))
     return {};
   std::erase_if(list, [&](Index j) {
+    if (std::abs(g[j]) <= walker.options.simultaneous)
+      return true;  // it rests: both sides are looked at
     const double rate = switch_rate(dg_dx, dg_dlambda, j, way.point.tangent);
     return std::abs(rate) * gap > small_share * std::abs(g[j]);
   });
@@ -211,9 +213,12 @@ std::vector<Event> seen_from_behind(std::vector<Event> events) {
 
 /// A special point of the way back as the branch meets it.
 Hit turned(Hit hit, double length, const std::vector<Event>& events) {
-  const CurvePoint arriving = hit.leaving.size() == 1 ? hit.leaving.front() : hit.point;
-  for (CurvePoint& p : hit.leaving) p = turned(hit.point, length);
-  hit.point = turned(arriving, length);
+  // Half-branches leave as they do; the way straight on is the one back.
+  for (auto* ways : {&hit.leaving, &hit.leaving_beside})
+    for (CurvePoint& p : *ways) p.s = length - p.s;
+  const CurvePoint back = turned(hit.point, length);
+  if (!hit.leaving.empty()) hit.leaving.front().tangent = opposite(hit.leaving.front().tangent);
+  hit.point = hit.leaving.empty() ? back : std::exchange(hit.leaving.front(), back);
   std::swap(hit.s_before, hit.s_after);
   hit.s_before = length - hit.s_before;
   hit.s_after = length - hit.s_after;

@@ -119,27 +119,34 @@ class ZeroFinder {
     return zero.has_value();
   }
 
-  /// By the function's own values, to rounding. @pre its signs at both places differ
+  /// By the function's own values, to rounding; nothing at a pole, beside which they grow.
+  /// @pre its signs at both places differ
   std::optional<ZeroOf> bracket(double left, double right) const {
-    const auto at_left = f_(left);
-    while (true) {
+    constexpr double grows = 2;
+    auto at_left = f_(left), at_right = f_(right);
+    if (!at_left || !at_right) return std::nullopt;
+    const double most = grows * std::max(std::abs(*at_left), std::abs(*at_right));
+    while (right - left > few_roundings * (high_ - low_)) {
       const double middle = 0.5 * (left + right);
       if (!(left < middle && middle < right)) break;
       const auto value = f_(middle);
-      if (!at_left || !value || std::isnan(*value)) return std::nullopt;
-      ((*value < 0) == (*at_left < 0) ? left : right) = middle;
+      if (!value || std::isnan(*value)) break;  // as near as points can be had
+      const bool is_left = (*value < 0) == (*at_left < 0);
+      (is_left ? left : right) = middle;
+      (is_left ? at_left : at_right) = value;
     }
+    if (std::max(std::abs(*at_left), std::abs(*at_right)) > most) return std::nullopt;
     return ZeroOf{.at = right, .before = left, .after = right, .off = right - left};
   }
 
   /// A zero at which the function is not smooth enough for a polynomial.
-  ZeroOf placed(const ZeroOf& zero) const {
+  std::optional<ZeroOf> placed(const ZeroOf& zero) const {
     if (noise_is_ != NoiseIs::threshold || zero.touches || zero.several ||
         zero.off <= promised_place)
       return zero;
     const auto before = f_(zero.before), after = f_(zero.after);
     if (!before || !after || !(*before * *after < 0)) return zero;
-    return bracket(zero.before, zero.after).value_or(zero);
+    return bracket(zero.before, zero.after);
   }
 
   void give_up() { result.resolved = false; }
@@ -307,10 +314,11 @@ class ZeroFinder {
 
   /// Neighbouring cells may see the same zero.
   void add(const ZeroOf& found) {
-    const ZeroOf zero = placed(found);
+    const auto zero = placed(found);
+    if (!zero) return give_up();
     for (const ZeroOf& other : result.zeros)
-      if (std::abs(other.at - zero.at) <= 10 * location) return;
-    result.zeros.push_back(zero);
+      if (std::abs(other.at - zero->at) <= 10 * location) return;
+    result.zeros.push_back(*zero);
   }
 
   const SampledFunction& f_;

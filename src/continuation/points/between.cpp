@@ -207,13 +207,17 @@ std::vector<PointGap> gaps_of(const std::vector<Stretch>& stretches, const Curve
   std::vector<PointGap> gaps;
   const auto add = [&](const CurvePoint& from, const CurvePoint& to, bool goes_on) {
     std::vector<double> special;
+    bool is_place = true;  // not a stretch
     for (const Hit& hit : curve.hits)
-      if (hit.kind != HitKind::user && hit.point.s >= from.s && hit.point.s <= to.s)
+      if (hit.kind != HitKind::user && hit.point.s >= from.s && hit.point.s <= to.s) {
         special.push_back(hit.point.s);
+        is_place = is_place && hit.kind != HitKind::unresolved && hit.kind != HitKind::family;
+      }
     const bool counted =
         special.empty() && from.negative == to.negative && (from.negative || !counts);
+    const bool one = special.size() == 1 && is_place;
     gaps.push_back({from, to, std::nullopt, counted,
-                    special.size() == 1 ? std::optional(special.front()) : std::nullopt, goes_on});
+                    one ? std::optional(special.front()) : std::nullopt, goes_on});
   };
   for (const Stretch& stretch : stretches) {
     // Between pieces, without a kink that was found.
