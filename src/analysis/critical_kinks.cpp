@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
+#include "critical_pieces.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/number_text.hpp"
 
@@ -26,25 +26,10 @@ constexpr int own_tag = std::numeric_limits<int>::min();
 /// Of one curve; one that has more goes to and fro between two states.
 constexpr int most_kinks = 20;
 
-double distance(const CriticalPoint& a, const CriticalPoint& b) {
-  return std::hypot((a.x - b.x).norm(), a.lambda - b.lambda, a.mu - b.mu);
-}
-
-/// The point of the curve at this value, near a guess; nothing where Newton's method goes elsewhere.
-/// @param from  the point before, from which the guess was made
-std::optional<CriticalPoint> point_near(const CaseCurves& curves, CriticalStart start,
-                                        const CriticalPoint& guess, const CriticalPoint& from) {
-  start.x = guess.x;
-  start.lambda = guess.lambda;
-  start.mu = guess.mu;
-  auto point = polish_critical(curves.family(), start);
-  const double room = std::max(distance(guess, from), continuation::told_apart);
-  if (!point || distance(*point, guess) > room) return std::nullopt;
-  point->dx = from.dx;
-  point->dlambda = from.dlambda;
-  point->dmu = from.dmu;
-  point->s = from.s + distance(*point, from);
-  return point;
+/// Of the path's start at this value of the parameter; empty where there is none, and where nothing switches.
+Piece piece_at(const CaseCurves& curves, double mu) {
+  const Member* member = curves.at(mu);
+  return member == nullptr ? Piece{} : member->first.piece;
 }
 
 /// As far along the straight line on which the curve arrives, or came.
@@ -57,82 +42,6 @@ CriticalPoint on_line(const CriticalPoint& from, const CriticalPoint& slope, dou
   return guess;
 }
 
-/// Events between the last point before a kink and the first one behind it, where each is located by the curve's own points.
-class ShortGap {
- public:
-  ShortGap(const CaseCurves& curves, const CriticalStart& start,
-           const std::vector<CriticalEvent>& events)
-      : curves_{curves}, start_{start}, events_{events} {}
-
-  /// @returns whether one of them ends the curve
-  bool close(const CriticalPoint& to, CriticalCurve& curve) const {
-    const CriticalPoint from = curve.points.back();
-    std::vector<CriticalHit> met;
-    std::vector<bool> stops;
-    for (const CriticalEvent& event : events_) {
-      const double before = event.value(from), behind = event.value(to);
-      if (!(before * behind < 0) && (before == 0 || behind != 0)) continue;
-      met.push_back({.name = event.name, .point = zero_of(event, from, to), .tag = event.tag});
-    }
-    std::stable_sort(met.begin(), met.end(), [](const CriticalHit& a, const CriticalHit& b) {
-      return a.point.s < b.point.s;
-    });
-    for (const CriticalHit& hit : met) {
-      curve.hits.push_back(hit);
-      if (!ends(hit)) continue;
-      curve.points.push_back(hit.point);
-      curve.stop = continuation::StopReason::event;
-      curve.stop_detail = hit.name;
-      return true;
-    }
-    curve.points.push_back(to);
-    return false;
-  }
-
- private:
-  bool ends(const CriticalHit& hit) const {
-    return std::any_of(events_.begin(), events_.end(), [&](const CriticalEvent& event) {
-      return event.action == continuation::EventAction::stop && event.name == hit.name &&
-             event.tag == hit.tag;
-    });
-  }
-
-  CriticalPoint zero_of(const CriticalEvent& event, CriticalPoint from, CriticalPoint to) const {
-    const bool rises = event.value(from) < 0;
-    const double room = rounding_unit * std::max(1.0, std::abs(to.mu));
-    while (std::abs(to.mu - from.mu) > room) {
-      CriticalPoint guess = from;
-      guess.mu = from.mu + 0.5 * (to.mu - from.mu);
-      if (guess.mu == from.mu || guess.mu == to.mu) break;
-      guess.x = 0.5 * (from.x + to.x);
-      guess.lambda = 0.5 * (from.lambda + to.lambda);
-      const auto middle = point_near(curves_, start_, guess, from);
-      if (!middle) break;
-      ((event.value(*middle) < 0) == rises ? from : to) = *middle;
-    }
-    return to;
-  }
-
-  const CaseCurves& curves_;
-  const CriticalStart& start_;
-  const std::vector<CriticalEvent>& events_;
-};
-
-/// Puts a piece behind a curve, of which it begins at the last point.
-void append(CriticalCurve piece, CriticalCurve& curve) {
-  const double s = curve.points.back().s;
-  for (CriticalPoint& point : piece.points) point.s += s;
-  for (CriticalHit& hit : piece.hits) hit.point.s += s;
-  if (!piece.points.empty())
-    curve.points.insert(curve.points.end(), piece.points.begin() + 1, piece.points.end());
-  std::move(piece.hits.begin(), piece.hits.end(), std::back_inserter(curve.hits));
-  curve.stop = piece.stop;
-  curve.stop_detail = std::move(piece.stop_detail);
-  curve.kept = curve.kept && piece.kept;
-  curve.left_out += piece.left_out;
-  curve.missed += piece.missed;
-}
-
 /// Does no switch contradict the piece on which the point is followed? Those that are zero there do not.
 bool is_on_piece(const CaseCurves& curves, const CriticalStart& start, const CriticalPoint& point) {
   constexpr double zero = continuation::promised_place;
@@ -142,25 +51,6 @@ bool is_on_piece(const CaseCurves& curves, const CriticalStart& start, const Cri
   for (Index j = 0; j < g.size(); ++j)
     if (g[j] * start.piece[static_cast<std::size_t>(j)] < -zero) return false;
   return true;
-}
-
-/// A curve that comes round to a kink once more has passed its start: there it ends.
-/// @param s  behind this
-void close(double s, CriticalCurve& curve) {
-  const CriticalPoint start = curve.points.front();
-  curve.stop = continuation::StopReason::closed;
-  curve.stop_detail.clear();
-  for (std::size_t i = 1; i < curve.points.size(); ++i) {
-    const CriticalPoint &a = curve.points[i - 1], &b = curve.points[i];
-    const double length = distance(a, b);
-    if (a.s < s || distance(a, start) > length || distance(b, start) > length) continue;
-    const double end = a.s + distance(a, start);
-    std::erase_if(curve.hits, [&](const CriticalHit& hit) { return hit.point.s > end; });
-    curve.points.resize(i);
-    curve.points.push_back(start);
-    curve.points.back().s = end;
-    return;
-  }
 }
 
 /// A curve up to just before a kink, or to its end.
@@ -231,13 +121,8 @@ class Follower {
   }
 
  private:
-  Piece piece_at(double mu) const {
-    const Member* member = curves_.at(mu);
-    return member == nullptr ? Piece{} : member->first.piece;
-  }
-
   bool differ(double a, double b) const {
-    const Piece here = piece_at(a), there = piece_at(b);
+    const Piece here = piece_at(curves_, a), there = piece_at(curves_, b);
     return !here.empty() && here.size() == there.size() && here != there;
   }
 
@@ -313,17 +198,13 @@ class Follower {
 
 std::optional<std::pair<double, std::string>> switching_start(const CaseCurves& curves, double mu,
                                                               double beyond) {
-  const auto piece_at = [&curves](double m) {
-    const Member* member = curves.at(m);
-    return member == nullptr ? Piece{} : member->first.piece;
-  };
-  const Piece here = piece_at(mu);
-  Piece there = piece_at(beyond);
+  const Piece here = piece_at(curves, mu);
+  Piece there = piece_at(curves, beyond);
   if (here.empty() || there.size() != here.size() || there == here) return std::nullopt;
   constexpr int halvings = 40;
   for (int i = 0; i < halvings; ++i) {
     const double middle = mu + 0.5 * (beyond - mu);
-    Piece piece = piece_at(middle);
+    Piece piece = piece_at(curves, middle);
     if (piece.size() != here.size()) return std::nullopt;
     if (piece == here) {
       mu = middle;
@@ -342,7 +223,6 @@ CriticalCurve follow_over_kinks(const CaseCurves& curves, const CriticalStart& s
                                 const std::function<bool(const CriticalPoint&)>& observer,
                                 const continuation::FurtherPoints& further) {
   const Follower follower(curves, start, events, options, observer, further);
-  const ShortGap gap(curves, start, events);
   Stretch stretch = follower.to_kink(start, growing);
   CriticalCurve& curve = stretch.curve;
   std::vector<CriticalPoint> passed;
@@ -360,7 +240,7 @@ CriticalCurve follow_over_kinks(const CaseCurves& curves, const CriticalStart& s
       return other.dmu * last.dmu > 0 && distance(other, *kink) <= continuation::told_apart;
     };
     if (std::any_of(passed.begin(), passed.end(), is_kink)) {
-      close(passed.front().s, curve);
+      end_at_start(passed.front().s, curve);
       break;
     }
     passed.push_back(*kink);
@@ -368,7 +248,9 @@ CriticalCurve follow_over_kinks(const CaseCurves& curves, const CriticalStart& s
     if (!next || !is_on_piece(curves, start, next->curve.points.front())) break;
     CriticalPoint first = next->curve.points.front();
     first.s = kink->s + distance(first, *kink);
-    if (gap.close(*kink, curve) || gap.close(first, curve)) break;
+    if (close_gap(curves, start, events, *kink, curve) ||
+        close_gap(curves, start, events, first, curve))
+      break;
     append(std::move(next->curve), curve);
     stretch.kink = next->kink;
   }

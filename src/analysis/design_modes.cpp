@@ -12,7 +12,7 @@ namespace {
 
 /// How far beside a design its modes are looked at, in the sizes of the parameters: rates are wrong by as much of their own
 /// change, and modes are that far apart.
-constexpr double beside = 0x1p-10;
+constexpr double step_aside = 0x1p-10;
 
 /// Branch points, and those of the pieces beside springs that rest: one after the other on one branch.
 bool is_mode(const DesignPath& path, const SpecialPoint& point) {
@@ -65,7 +65,7 @@ FirstModes first_modes(const DesignCase& of, const Vector& values, const DesignP
   // Every parameter by another amount: those of a symmetric structure do not move alike.
   Vector near = values;
   for (Index i = 0; i < near.size(); ++i)
-    near[i] += beside * of.sizes[static_cast<std::size_t>(i)] / static_cast<double>(i + 1);
+    near[i] += step_aside * of.sizes[static_cast<std::size_t>(i)] / static_cast<double>(i + 1);
   DesignPath other(of, near);
   if (!other.has_start()) return found;
   other.trace(observer);

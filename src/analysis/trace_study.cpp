@@ -107,8 +107,7 @@ bool only_forces_change(const PathProblem& problem, const CurvePoint& start) {
 constexpr const char* rigid_where_driven =
     "what is driven is rigid here: forces alone can change, as where links are stretched out along "
     "the drive; with control = \"load\" the state is followed through its buckling load, and a "
-    "start a "
-    "little off the straight one, or an elastic link, has a curve";
+    "start a little off the straight one, or an elastic link, has a curve";
 
 /// Slopes at the start, on both sides.
 void report_rates(const Tracing& t, const CurvePoint& start, const continuation::Rays& rays,

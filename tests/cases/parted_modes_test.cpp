@@ -134,23 +134,44 @@ critical_load = { of = "loss_of_stability", parameter = "psi", range = [-0.3, 0.
   EXPECT_TRUE(at_zero);
 }
 
-/// K = diag(1 - lambda, 1 + e - lambda): loads 4e-10 apart are one point, and no mean of 0 and 1 is the rate of either.
-TEST(PartedModes, HaveNoRateByASmallParameterThatPartsThem) {
+/// K = diag(1 - lambda, 1 + e - lambda), and the branch points of the straight bar.
+std::vector<analysis::Event> branch_points_of(const std::string& e, analysis::StudyResult& result) {
   std::string text = bar_on_universal_joint(
       "kind = \"sensitivity\"\nsensitivity = { parameters = [\"e\", \"c\"] }\n");
-  text.replace(text.find("c = 1\n"), 6, "c = 1\ne = 4e-10\n");
+  text.replace(text.find("c = 1\n"), 6, "c = 1\ne = " + e + "\n");
   text.replace(text.find("c*c2"), 4, "c*c2*(1 + e)");
-  const analysis::StudyResult result = run(text).of("s");
-  int points = 0;
-  for (const auto& event : result.branches.at(0).events) {
-    if (event.kind != analysis::EventKind::branch_point) continue;
-    const auto& values = result.branches[0].samples[event.row].values;
-    EXPECT_TRUE(std::isnan(values[column(result, "d(lambda)/d(e)")]));
-    EXPECT_NEAR(values[column(result, "d(lambda)/d(c)")], 1, 1e-8);
-    EXPECT_THAT(event.detail, testing::HasSubstr("no rate by e"));
-    ++points;
+  result = run(text).of("s");
+  std::vector<analysis::Event> points;
+  for (const auto& event : result.branches.at(0).events)
+    if (event.kind == analysis::EventKind::branch_point) points.push_back(event);
+  return points;
+}
+
+/// Loads 4e-11 apart are one point, and no mean of 0 and 1 is the rate of either.
+TEST(PartedModes, HaveNoRateByASmallParameterThatPartsThem) {
+  analysis::StudyResult result;
+  const auto points = branch_points_of("4e-11", result);
+  ASSERT_EQ(points.size(), 1u);
+  const auto& values = result.branches[0].samples[points[0].row].values;
+  EXPECT_TRUE(std::isnan(values[column(result, "d(lambda)/d(e)")]));
+  EXPECT_NEAR(values[column(result, "d(lambda)/d(c)")], 1, 1e-8);
+  EXPECT_THAT(points[0].detail, testing::HasSubstr("no rate by e"));
+}
+
+TEST(PartedModes,
+     AreTwoPointsWithRatesOfTheirOwnWhereAParameterPartsThemByMoreThanPlacesArePromised) {
+  for (const std::string e : {"4e-10", "1e-8", "1e-6", "1e-4"}) {
+    analysis::StudyResult result;
+    const auto points = branch_points_of(e, result);
+    ASSERT_EQ(points.size(), 2u) << e;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto& values = result.branches[0].samples[points[i].row].values;
+      const double load = i == 0 ? 1 : 1 + std::stod(e);
+      EXPECT_NEAR(values[column(result, "lambda")], load, 1e-12) << e;
+      EXPECT_NEAR(values[column(result, "d(lambda)/d(e)")], static_cast<double>(i), 1e-7) << e;
+      EXPECT_NEAR(values[column(result, "d(lambda)/d(c)")], load, 1e-7) << e;
+    }
   }
-  EXPECT_EQ(points, 1);
 }
 
 }  // namespace

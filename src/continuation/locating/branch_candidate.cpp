@@ -93,21 +93,23 @@ Offset offset_of(const TestedStep& arc, const Singularity& place, const CurvePoi
 
 /// Takes over the exact place of a branch point, if it is this one: near the interpolated place, and on
 /// the interpolated curve. Otherwise the interpolated one stays, with what is known of its error.
+/// @param near  how many modes come near to zero there, those that vanish among them
 /// @returns false when the curves pass each other there, or the place is not known
-bool settle_place(const TestedStep& arc, const Singularity& place, Index m, Candidate& found) {
+bool settle_place(const TestedStep& arc, const Singularity& place, Index m, Index near,
+                  Candidate& found) {
   const int corank = static_cast<int>(m);
   const double reach = std::clamp(near_share * place.free, together, branch_point_reach);
   const auto exact = place_branch_point(arc.walker(), found.point, corank, 2 * reach);
   found.off = place.doubt;
   if (exact) {
     const Offset offset = offset_of(arc, place, found.point, exact->point);
-    const bool near = std::abs(offset.along) <= reach && offset.aside <= 10 * same_point;
-    if (near && exact->off > poor) return false;
-    if (near && exact->misfit <= same_point) {
+    const bool is_it = std::abs(offset.along) <= reach && offset.aside <= 10 * same_point;
+    if (is_it && exact->off > poor) return false;
+    if (is_it && exact->misfit <= same_point) {
       if (exact->left <= branches_apart) {
         found.point = exact->point;
         found.at = offset.at;
-        found.off = exact->off;
+        found.off = std::max(exact->off, exact->misfit);
         found.before = std::min(found.before, offset.at);
         found.after = std::max(found.after, offset.at);
         return true;
@@ -121,7 +123,10 @@ bool settle_place(const TestedStep& arc, const Singularity& place, Index m, Cand
   // A branch point somewhat farther away says that rounding has shaped the interpolants.
   const auto other = place_branch_point(arc.walker(), found.point, corank);
   if (other && other->misfit <= same_point && other->off <= poor) return false;
-  const auto left = [&] { return left_of_residual(arc.walker(), found.point, corank); };
+  // Where several modes are near, one alone cannot be reduced to: what is left is asked for in all of them.
+  const auto left = [&] {
+    return left_of_residual(arc.walker(), found.point, static_cast<int>(near));
+  };
   const double beside = left();
   polish(arc, found.point, m);
   // At the very point the problem may not be defined.
@@ -185,7 +190,8 @@ std::optional<Interpolant> curve_near(const TestedStep& arc, double t, double le
 }
 
 std::optional<Candidate> candidate_at(const TestedStep& arc, const Singularity& place,
-                                      const std::vector<ZeroOf>& zeros, Index m, bool touches) {
+                                      const std::vector<ZeroOf>& zeros, Index m, bool touches,
+                                      Index near) {
   const Index n = arc.from().x.size();
   if (m > n)
     return std::nullopt;  // dF/d(x, lambda) has no more rows that could depend on each other
@@ -197,8 +203,8 @@ std::optional<Candidate> candidate_at(const TestedStep& arc, const Singularity& 
   result.multiplicity = touches ? 2 : static_cast<int>(m);  // two may have merged in rounding
   result.kind = touches ? HitKind::touch : HitKind::branch_point;
   result.odd = m % 2 == 1 && !touches;
-  if (!settle_place(arc, place, m, result) || !has_corank(arc, result.point, m) ||
-      !vanish_together(arc, result.point, m))
+  if (!settle_place(arc, place, m, std::max(m, near), result) ||
+      !has_corank(arc, result.point, m) || !vanish_together(arc, result.point, m))
     return std::nullopt;
   result.turns = touches ? turns_at(arc, place.at) : branch_turns(arc, m, result);
   if (m > 1 && has_company(arc, result, m)) return std::nullopt;

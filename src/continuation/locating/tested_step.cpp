@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/locating/branch_point.hpp"
 #include "continuation/locating/cluster.hpp"
 #include "continuation/locating/evidence.hpp"
+#include "continuation/locating/sigma_near.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/sampling.hpp"
@@ -24,49 +26,28 @@ double left_of(const Vector& entries, const Vector& slopes, Index m, double noth
 /// Places near t where all m x m entries of Sigma vanish: least squares from several starts.
 std::vector<Singularity> multiple_zeros_on(const TestedStep& arc, double t, double length,
                                            Index m) {
-  const auto curve = curve_near(arc, t, length);
-  if (!curve) return {};
-  const Index n = arc.from().x.size();
-  CurvePoint centre = arc.from();
-  centre.x = (*curve)(t).head(n);
-  centre.lambda = (*curve)(t)[n];
-  const auto E = arc.matrix(centre);
-  if (!E) return {};
-  const Borders borders = borders_of(*E, m);
-  const auto Sigma = interpolate(
-      [&](double ds) -> std::optional<Vector> {
-        const auto entries = arc.sigma(ds, borders);
-        return entries ? std::optional<Vector>(entries->reshaped()) : std::nullopt;
-      },
-      curve->a, curve->b);
-  if (!Sigma) return {};
-  double error = 0;
-  for (const double t_between : Sigma->checks()) {
-    const auto entries = arc.sigma(t_between, borders);
-    if (!entries) return {};
-    error = std::max(error, (entries->reshaped() - (*Sigma)(t_between)).norm());
-  }
-  // Entries below this are zero: rounding, and the error of the interpolant.
-  const double nothing = 8 * sigma_noise(*E, borders) +
-                         residual_level * Sigma->values.cwiseAbs().maxCoeff() + 3 * error;
+  const auto near = sigma_near(arc, t, length, m);
+  if (!near) return {};
+  const Interpolant& curve = near->curve;
   std::vector<Singularity> found;
-  for (const double start : {t, curve->a, curve->b}) {
+  for (const double start : {t, curve.a, curve.b}) {
     double place = start;
     // All entries are multiples of t - t* near the place.
     settles(40, [&](double) -> std::optional<IterationStep> {
-      const Vector s = (*Sigma)(place), d = Sigma->slope(place);
+      const Vector s = near->entries(place), d = near->entries.slope(place);
       const double step = -d.dot(s) / d.squaredNorm();
       if (!std::isfinite(step)) return std::nullopt;
-      place = std::clamp(place + step, curve->a, curve->b);
+      place = std::clamp(place + step, curve.a, curve.b);
       return IterationStep{std::abs(step), few_roundings};
     });
-    const double left = left_of((*Sigma)(place), Sigma->slope(place), m, m > 1 ? nothing : 0) +
-                        error / Sigma->slope(place).norm();
+    const double left =
+        left_of(near->entries(place), near->entries.slope(place), m, m > 1 ? near->nothing : 0) +
+        near->error / near->slope(place).norm();
     const bool known = std::any_of(found.begin(), found.end(), [&](const Singularity& other) {
       return std::abs(other.at - place) < 2 * same_point;
     });
     if (left <= same_point && !known)
-      found.push_back({place, (*curve)(place), curve->slope(place), left});
+      found.push_back({place, curve(place), curve.slope(place), left});
   }
   return found;
 }
@@ -111,8 +92,50 @@ bool is_simple_zero(const TestedStep& arc, double at, Index m, double free) {
          is_straight(value(at + far), right);
 }
 
-/// Branch points where zeros of det Sigma lie together: multiple ones if all entries vanish in one
-/// place, otherwise a simple one, where the zero is.
+/// The step's points may be off by more than their scatter shows, beside a multiple point of a path that bends. The equations
+/// of one place at which all of these modes vanish do not know the step: do they contradict each other by as much as the
+/// modes are apart?
+bool contradict_one_place(const TestedStep& arc, const SigmaNear& near,
+                          const std::vector<ZeroOfMode>& modes) {
+  const double first = modes.front().at, last = modes.back().at;
+  const Vector u = near.curve(0.5 * (first + last));
+  CurvePoint middle = arc.from();
+  middle.x = u.head(u.size() - 1);
+  middle.lambda = u[u.size() - 1];
+  const auto one = place_branch_point(arc.walker(), middle, static_cast<int>(modes.size()));
+  return one && one->misfit > small_share * (last - first);
+}
+
+/// Several modes vanish close together, where the determinant is lost in its rounding: each of them on its own.
+/// @returns none unless all of them are told apart, and are as many as the signs of the determinant ask for
+std::vector<Candidate> apart_at(const TestedStep& arc, const std::vector<ZeroOf>& zeros, Index most,
+                                double free) {
+  const double middle = 0.5 * (zeros.front().at + zeros.back().at);
+  const auto crossings =
+      std::count_if(zeros.begin(), zeros.end(), [](const ZeroOf& z) { return !z.touches; });
+  for (const double share : half_decades<3>()) {
+    const auto near = sigma_near(arc, middle, share * (arc.high() - arc.low()), most);
+    const auto modes = near ? modes_near(*near, middle, 0.6 * free) : std::vector<ZeroOfMode>{};
+    if (modes.size() == 1 && crossings == 1) return {};
+    if (modes.size() < 2 || std::ssize(modes) % 2 != crossings % 2) continue;
+    if (!contradict_one_place(arc, *near, modes)) continue;
+    std::vector<Candidate> result;
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      const double at = modes[i].at;
+      double alone = free;
+      if (i > 0) alone = std::min(alone, at - modes[i - 1].at);
+      if (i + 1 < modes.size()) alone = std::min(alone, modes[i + 1].at - at);
+      const Singularity place{at, near->curve(at), near->curve.slope(at), modes[i].off, alone};
+      if (auto candidate = candidate_at(arc, place, zeros, 1, false, std::ssize(modes)))
+        result.push_back(std::move(*candidate));
+    }
+    if (result.size() == modes.size()) return result;
+  }
+  return {};
+}
+
+/// Branch points where zeros of det Sigma lie together: each on its own where the modes are told apart, multiple ones if all
+/// entries vanish in one place, otherwise a simple one, where the zero is.
 std::vector<Candidate> branch_points_at(const TestedStep& arc, const std::vector<ZeroOf>& zeros,
                                         Index most, double free) {
   const double middle = 0.5 * (zeros.front().at + zeros.back().at);
@@ -127,6 +150,10 @@ std::vector<Candidate> branch_points_at(const TestedStep& arc, const std::vector
   };
   const bool is_simple = zeros.size() == 1 && crossings == 1 && most > 1 &&
                          is_simple_zero(arc, zeros.front().at, most, free);
+  if (!is_simple && most > 1) {
+    result = apart_at(arc, zeros, most, free);
+    if (!result.empty()) return result;
+  }
   for (Index m = is_simple ? 1 : most; m > 1; --m) {
     const auto places = multiple_zeros(arc, middle, free, m);
     for (const Singularity& place : places) add(place, m, false);
@@ -249,6 +276,7 @@ bool add_branch_points(const TestedStep& arc, const TestedZeros& singular,
   const auto add = [&](const std::vector<ZeroOf>& group, double free) {
     auto candidates = branch_points_at(arc, group, singular.order, free);
     if (candidates.empty()) return false;
+    const std::vector<Candidate> of_others = found;
     for (Candidate& candidate : candidates) {
       // Where lambda turns at a branch point, one eigenvalue more comes back without crossing zero.
       bool turned = false;
@@ -260,10 +288,11 @@ bool add_branch_points(const TestedStep& arc, const TestedZeros& singular,
         return here;
       });
       candidate.odd = candidate.odd != (turned || candidate.turns);
-      const bool twice = std::any_of(found.begin(), found.end(), [&](const Candidate& other) {
-        return std::abs(other.at - candidate.at) <
-               std::max(small_share * same_point, 10 * (other.off + candidate.off));
-      });
+      const bool twice =
+          std::any_of(of_others.begin(), of_others.end(), [&](const Candidate& other) {
+            return std::abs(other.at - candidate.at) <
+                   std::max(small_share * same_point, 10 * (other.off + candidate.off));
+          });
       if (twice) return false;
       found.push_back(std::move(candidate));
     }

@@ -180,8 +180,10 @@ std::optional<Interpolant> curve_near(const TestedStep& arc, double t, double le
 /// it, polished otherwise.
 /// @param zeros    of the test function that showed it
 /// @param touches  the test function does not change its sign: a degenerate point
+/// @param near     how many modes vanish so near that one alone tells little; 0: those m
 /// @returns nothing if branches do not meet there
 std::optional<Candidate> candidate_at(const TestedStep& arc, const Singularity& place,
-                                      const std::vector<ZeroOf>& zeros, Index m, bool touches);
+                                      const std::vector<ZeroOf>& zeros, Index m, bool touches,
+                                      Index near = 0);
 
 }  // namespace springfold::continuation
