@@ -64,13 +64,22 @@ struct Limit {
   double accuracy = infinity;
 };
 
+/// Where the branch of a ray is expected `times` as far away: on the parabola through the singular point that touches the
+/// branch at the ray's point. Where curves cross under a small angle and bend by more than that, half of the way to a point of
+/// one of them is nearer to the other.
+Vector expected(const ReducedEquation& e, const RayPoint& ray, double times) {
+  const Vector way = ray.U - e.U0;
+  if (ray.rate.size() == 0) return e.U0 + times * way;
+  return e.U0 + times * ((2 - times) * way + (times - 1) * ray.rate);
+}
+
 /// Points of the ray at 4 rho, 2 rho, rho, rho / 2, ... as far as the branch can be followed.
 std::vector<RayPoint> along(const ReducedEquation& e, const RayPoint& ray, double rho) {
   std::vector<RayPoint> points{ray};
   const auto follow = [&](double factor, int most) {
     double r = rho;
     for (RayPoint here = ray; most > 0; --most) {
-      auto next = ray_point(e, e.U0 + factor * (here.U - e.U0), factor * r);
+      auto next = ray_point(e, expected(e, here, factor), factor * r);
       if (!next || (next->c / (factor * r) - here.c / r).norm() > aside_share) return;
       points.insert(factor > 1 ? points.begin() : points.end(), *next);
       here = std::move(*next);
@@ -131,7 +140,7 @@ std::optional<CurvePoint> branch_point_of(const ReducedEquation& e, const RayPoi
 /// method, and where that drowns in rounding by the expansion of second order, exact to rounding there.
 std::optional<RayPoint> nearer(const ReducedEquation& e, const RayPoint& last, const Vector& limit,
                                double rho) {
-  if (auto ray = ray_point(e, e.U0 + 0.5 * (last.U - e.U0), rho)) return ray;
+  if (auto ray = ray_point(e, expected(e, last, 0.5), rho)) return ray;
   const Vector c = rho * limit;
   return RayPoint{.U = e.U0 + e.N * c + bend_along(e, c), .c = c};
 }
@@ -192,7 +201,8 @@ bool is_crossing_of_two(const ReducedEquation& e, const std::vector<Vector>& sur
 
 struct Search {
   RaySet set{};
-  std::string doubt{};  ///< set: the radii do not agree
+  std::string doubt{};   ///< set: the radii do not agree
+  bool crosses = false;  ///< two curves cross, and only these
 };
 
 /// Smaller and smaller spheres until neighbouring ones show the same.
@@ -216,20 +226,33 @@ Search search_inwards(const ReducedEquation& e, double rho, int radii) {
     agreeing = good ? (same ? agreeing + 1 : 1) : 0;
     if (!set.doubt.empty()) doubt = set.doubt;
     last = std::move(set);
-    if (agreeing == needed) return {std::move(last), {}};
+    if (agreeing == needed) return {std::move(last), {}, crosses};
   }
   // Another branch may be so near that few spheres are small enough: one shows the ways that are known to be all.
   if (crosses && agreeing > 0) doubt.clear();
-  return {std::move(last), doubt};
+  return {std::move(last), doubt, crosses};
 }
 
-Exits exits_of(const ReducedEquation& e, const RaySet& set, const std::string& doubt,
-               const NearEnough& near_enough) {
+/// Has every way a tangent of its own?
+bool are_parted(const Walker& walker, const std::vector<Exit>& exits) {
+  for (std::size_t i = 0; i < exits.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Direction &a = exits[i].tangent, &b = exits[j].tangent;
+      if (length_of(walker, {a.dx - b.dx, a.dlambda - b.dlambda}) < one_direction) return false;
+    }
+  return true;
+}
+
+Exits exits_of(const ReducedEquation& e, const Search& search, const NearEnough& near_enough) {
   Exits result;
-  for (const RayPoint& ray : set.rays) add_exit(e, ray, set.rho, near_enough, result);
-  if (result.why.empty() && !doubt.empty()) {
+  for (const RayPoint& ray : search.set.rays) add_exit(e, ray, search.set.rho, near_enough, result);
+  if (result.complete && search.crosses && !are_parted(*e.walker, result.exits)) {
     result.complete = false;
-    result.why = doubt;
+    result.why = "curves cross under so small an angle that their ways are not told apart";
+  }
+  if (result.why.empty() && !search.doubt.empty()) {
+    result.complete = false;
+    result.why = search.doubt;
   }
   return result;
 }
@@ -255,7 +278,7 @@ Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
     Search further_out = search_inwards(*e, 6 * rho, 5);
     if (further_out.doubt.empty()) search = std::move(further_out);
   }
-  return exits_of(*e, search.set, search.doubt, near_enough);
+  return exits_of(*e, search, near_enough);
 }
 
 int corank_of(const Walker& walker, const CurvePoint& at, double share) {

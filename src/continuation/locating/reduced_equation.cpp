@@ -214,11 +214,13 @@ std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start,
     if ((ray.U - e.U0).norm() > 2 * rho || ray.c.norm() < near_share * rho) return std::nullopt;
     ray.noise = 0.5 * rounding_unit * e.scale * lu.largest_pivot() / lu.smallest_pivot() / rho;
     ray.sign = lu.sign();
+    ray.rate = rho * lu.solve(Vector(Vector::Unit(n + 1, n)));
     const bool small =
         F.lpNorm<Eigen::Infinity>() <=
         residual_bound(e.walker->problem, e.piece, e.walker->options.newton, e.scale);
     return IterationStep{moved, function_noise * rho, small ? near_share * told_apart * rho : 0};
   });
+  if (!ray.rate.allFinite()) ray.rate.resize(0);
   return found ? std::optional(ray) : std::nullopt;
 }
 

@@ -67,6 +67,7 @@ std::optional<ReducedValue> reduced_value(const ReducedEquation& equation, const
 struct RayPoint {
   Vector U{};
   Vector c{};        ///< N^T (U - U0), of length rho
+  Vector rate{};     ///< dU along the branch for as much of rho; empty: not known
   double noise = 0;  ///< of the direction c / rho, by rounding
   int sign = 0;      ///< of the determinant of |J; c^T N^T|: +1 and -1 balance on a sphere
 };
