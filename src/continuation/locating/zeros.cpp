@@ -109,9 +109,17 @@ class ZeroFinder {
     return at_end && (p.values.minCoeff() >= 0 || p.values.maxCoeff() <= 0);
   }
 
-  /// Functions of the caller may be steeper than anything that is resolved, or jump: their one change of sign is a zero.
+  /// Are signs beyond doubt at both places, and is a change between them a zero where no polynomial is accurate? Functions of
+  /// the caller may be steeper than anything that is resolved, or jump; lambda's rate has a corner at its zero where a spring
+  /// law with a kink in its slope has its extremum just there. A determinant beside its zero is noise.
+  bool may_bracket(double at_left, double at_right) const {
+    if (noise_is_ == NoiseIs::doubt) return false;
+    return noise_is_ == NoiseIs::threshold ||
+           std::min(std::abs(at_left), std::abs(at_right)) > clear * noise_;
+  }
+
   bool bracketed(const Interpolant& p) {
-    if (noise_is_ != NoiseIs::threshold) return false;
+    if (!may_bracket(p.first(p.a), p.first(p.b))) return false;
     const auto signs = (p.values.row(0).array() < 0).eval();
     if ((signs.head(signs.size() - 1) != signs.tail(signs.size() - 1)).count() != 1) return false;
     const auto zero = bracket(p.a, p.b);
@@ -141,11 +149,9 @@ class ZeroFinder {
 
   /// A zero at which the function is not smooth enough for a polynomial.
   std::optional<ZeroOf> placed(const ZeroOf& zero) const {
-    if (noise_is_ != NoiseIs::threshold || zero.touches || zero.several ||
-        zero.off <= promised_place)
-      return zero;
+    if (zero.touches || zero.several || zero.off <= promised_place) return zero;
     const auto before = f_(zero.before), after = f_(zero.after);
-    if (!before || !after || !(*before * *after < 0)) return zero;
+    if (!before || !after || !(*before * *after < 0) || !may_bracket(*before, *after)) return zero;
     return bracket(zero.before, zero.after);
   }
 
