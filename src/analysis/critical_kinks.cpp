@@ -101,26 +101,64 @@ class Follower {
     return found;
   }
 
+  /// From a start at which the curve itself has a kink, and nothing leaves along its tangent: an extremum of a law with a kink
+  /// in its slope lies just there. A little farther on the curve is found again, if its points lie in one direction from there.
+  std::optional<Stretch> beside(const CriticalStart& from, bool growing) const {
+    constexpr double wider[] = {1, 4, 16}, twice = 2, least = 1.5, most = 2.5;
+    const auto point = polish_critical(curves_.family(), from);
+    if (!point) return std::nullopt;
+    for (const double times : wider) {
+      const double gap = (growing ? times : -times) * beside_kink;
+      const auto first = point_at(*point, point->mu + gap),
+                 second = point_at(*point, point->mu + twice * gap);
+      if (!first || !second || !is_on_piece(curves_, from, *first)) continue;
+      const double grown = distance(*second, *point) / distance(*first, *point);
+      if (!(grown > least && grown < most)) continue;
+      auto next = going_on(*first, growing);
+      if (!next) continue;
+      Stretch found{.kink = next->kink};
+      found.curve.points = {*point};
+      CriticalPoint behind = next->curve.points.front();
+      behind.s = distance(behind, *point);
+      if (!close_gap(curves_, from, events_, behind, found.curve))
+        append(std::move(next->curve), found.curve);
+      return found;
+    }
+    return std::nullopt;
+  }
+
   /// From the kink on, with its first point; nothing if the curve cannot be followed from there.
   std::optional<Stretch> from_kink(const CriticalPoint& kink, const CriticalPoint& last) const {
     constexpr double wider[] = {1, 4, 16};
-    CriticalStart start = start_;
     for (const double times : wider) {
       const double gap = std::max(std::abs(kink.mu - last.mu), beside_kink) * times;
       const auto first = point_near(
           curves_, start_, on_line(kink, last, kink.mu + std::copysign(gap, last.dmu)), kink);
       if (!first) continue;
-      start.x = first->x;
-      start.lambda = first->lambda;
-      start.mu = first->mu;
-      Stretch next = from_place(start, last.dmu > 0, curves_.start_enters_equations());
-      if (next.curve.points.size() < 2 && next.curve.hits.empty() && !next.kink) continue;
-      return next;
+      if (auto next = going_on(*first, last.dmu > 0)) return next;
     }
     return std::nullopt;
   }
 
  private:
+  std::optional<CriticalPoint> point_at(const CriticalPoint& guess, double mu) const {
+    CriticalStart start = start_;
+    start.x = guess.x;
+    start.lambda = guess.lambda;
+    start.mu = mu;
+    return polish_critical(curves_.family(), start);
+  }
+
+  std::optional<Stretch> going_on(const CriticalPoint& first, bool growing) const {
+    CriticalStart start = start_;
+    start.x = first.x;
+    start.lambda = first.lambda;
+    start.mu = first.mu;
+    Stretch next = from_place(start, growing, curves_.start_enters_equations());
+    if (next.curve.points.size() < 2 && next.curve.hits.empty() && !next.kink) return std::nullopt;
+    return next;
+  }
+
   bool differ(double a, double b) const {
     const Piece here = piece_at(curves_, a), there = piece_at(curves_, b);
     return !here.empty() && here.size() == there.size() && here != there;
@@ -224,6 +262,10 @@ CriticalCurve follow_over_kinks(const CaseCurves& curves, const CriticalStart& s
                                 const continuation::FurtherPoints& further) {
   const Follower follower(curves, start, events, options, observer, further);
   Stretch stretch = follower.to_kink(start, growing);
+  const bool is_stuck = stretch.curve.stop == continuation::StopReason::step_too_small &&
+                        stretch.curve.points.size() < 2 && !stretch.kink;
+  if (is_stuck)
+    if (auto beside = follower.beside(start, growing)) stretch = std::move(*beside);
   CriticalCurve& curve = stretch.curve;
   std::vector<CriticalPoint> passed;
   while (stretch.kink && !curve.points.empty()) {
