@@ -41,7 +41,8 @@ bool is_unwanted(const Member& member, const CriticalPointSettings& settings, co
       return !only_turns || turns_back(member, path, point, "lambda") ||
              (dead && (point.hit.tag == force_limit || turns_back(member, path, point, "force")));
     case EventKind::unresolved:
-      return !only_turns;
+      return !only_turns || turns_back(member, path, point, "lambda") ||
+             (dead && turns_back(member, path, point, "force"));
     case EventKind::switching: {
       const QuantityDefinition* index = member.quantity(dead ? "index_force" : "index");
       if (only_turns || index == nullptr || point.row + 1 >= path.branch.samples.size())
@@ -99,8 +100,13 @@ FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& 
   if (find(path)) return first;
   if (path.is_enough) path = base_path(*member, true, observer);
   if (find(path)) return first;
+  const bool hides =
+      std::any_of(path.points.begin(), path.points.end(),
+                  [](const SpecialPoint& p) { return p.kind == EventKind::unresolved; });
   if (!path.problem.empty() || !path.branch.forward.complete)
     first.why = path.problem.empty() ? path.branch.forward.reason : path.problem;
+  else if (hides)
+    first.why = "a point of the path is unresolved: limit points may lie there";
   return first;
 }
 

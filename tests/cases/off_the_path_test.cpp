@@ -95,7 +95,7 @@ critical_load = { of = "loss_of_stability", parameter = "f", range = [0.5, 0.8],
 )toml")
                           .of("s");
   const double L0 = std::sqrt(1.25), L = std::cbrt(L0 / 1.025), y = std::sqrt(L * L - 1);
-  ASSERT_EQ(result.branches.size(), 2U);
+  ASSERT_GE(result.branches.size(), 2U);
   for (const analysis::Branch& branch : result.branches)
     for (const auto& sample : branch.samples) {
       const double f = sample.values.back(), u = y + 0.2;
@@ -104,8 +104,8 @@ critical_load = { of = "loss_of_stability", parameter = "f", range = [0.5, 0.8],
     }
   EXPECT_NEAR(result.branches[0].samples.front().values.back(), 0.5, 1e-12);
   EXPECT_NEAR(result.branches[0].samples.back().values.back(), 0.78, 1e-3);
-  EXPECT_NEAR(result.branches[1].samples.front().values.back(), 0.78, 1e-3);
-  EXPECT_NEAR(result.branches[1].samples.back().values.back(), 0.8, 1e-12);
+  EXPECT_NEAR(result.branches.back().samples.front().values.back(), 0.78, 1e-3);
+  EXPECT_NEAR(result.branches.back().samples.back().values.back(), 0.8, 1e-12);
   ASSERT_FALSE(result.doubts.empty());
   EXPECT_THAT(result.doubts.front(), HasSubstr("at f = 0.78"));
 }

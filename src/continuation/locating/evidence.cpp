@@ -265,10 +265,12 @@ bool examine(const Walker& walker, const ArcModel* model, const CurvePoint& from
     d.dlambda = p.lambda - from.lambda - along * from.tangent.dlambda;
     return length_of(walker, d);
   };
+  // A piece may begin where a law is hardly smooth, as at a contact whose force grows with a power little above one. No
+  // polynomial follows it there, but what a short first step is off by less than places are promised by is no other branch.
+  const double nothing = model == nullptr && ds <= poor ? promised_place : function_noise;
   // An eigen-decomposition: only where it can matter.
   const auto exceeds = [&](double value, double limit) {
-    return value > limit + function_noise &&
-           value > limit + function_noise + corrector_noise(walker, middle);
+    return value > limit + nothing && value > limit + nothing + corrector_noise(walker, middle);
   };
   const double size = std::max(bend(middle), bend(to) / 4);
   const double off = off_cubic(walker, from, to, middle, d);

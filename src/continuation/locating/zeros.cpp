@@ -152,7 +152,11 @@ class ZeroFinder {
     if (zero.touches || zero.several || zero.off <= promised_place) return zero;
     const auto before = f_(zero.before), after = f_(zero.after);
     if (!before || !after || !(*before * *after < 0) || !may_bracket(*before, *after)) return zero;
-    return bracket(zero.before, zero.after);
+    const auto narrow = bracket(zero.before, zero.after);
+    if (noise_is_ == NoiseIs::threshold) return narrow;
+    // Beside a branch point the noise is more than its bound, and a change of sign may be one of noise.
+    const bool agrees = narrow && std::abs(narrow->at - zero.at) <= sure * zero.off;
+    return agrees ? ZeroOf{narrow->at, zero.before, zero.after, zero.off} : zero;
   }
 
   void give_up() { result.resolved = false; }
