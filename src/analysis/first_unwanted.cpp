@@ -100,9 +100,9 @@ FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& 
   if (find(path)) return first;
   if (path.is_enough) path = base_path(*member, true, observer);
   if (find(path)) return first;
-  const bool hides =
-      std::any_of(path.points.begin(), path.points.end(),
-                  [](const SpecialPoint& p) { return p.kind == EventKind::unresolved; });
+  const bool hides = std::any_of(path.points.begin(), path.points.end(), [](const SpecialPoint& p) {
+    return p.kind == EventKind::unresolved;
+  });
   if (!path.problem.empty() || !path.branch.forward.complete)
     first.why = path.problem.empty() ? path.branch.forward.reason : path.problem;
   else if (hides)

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "springfold/continuation/diagram.hpp"
@@ -55,6 +56,39 @@ TEST(SmallAngle, HasAJunctionInADiagram) {
   ASSERT_EQ(diagram.junctions.size(), 1u);
   EXPECT_EQ(diagram.junctions.front().ways.size(), 4u);
   EXPECT_TRUE(diagram.doubts.empty()) << diagram.doubts.front();
+}
+
+/// Where the ways begin the curves bend by more than they are apart: from 4 to 40 times as much.
+TEST(SmallAngle, HasWaysWithTangentsOfBothCurvesOnAPathThatBends) {
+  for (const double angle : {4e-4, 1e-3})
+    for (const double bend : {2.0, 8.0}) {
+      const Crossing problem{angle, bend, 0};
+      const double l = -0.83;
+      const Diagram diagram =
+          trace_diagram(problem, {{.x = Vector::Constant(1, bend * l * l / 2), .lambda = l}},
+                        {lambda_reaches(-1), lambda_reaches(1)}, {});
+      ASSERT_TRUE(diagram.doubts.empty()) << diagram.doubts.front();
+      ASSERT_EQ(diagram.junctions.size(), 1u);
+      const auto& ways = diagram.junctions.front().ways;
+      ASSERT_EQ(ways.size(), 4u);
+      for (const double slope : {0.0, angle})
+        for (const double sense : {-1.0, 1.0})
+          EXPECT_EQ(std::count_if(ways.begin(), ways.end(),
+                                  [&](const Way& way) {
+                                    const Direction& d = way.point.tangent;
+                                    return d.dlambda * sense > 0 &&
+                                           std::abs(d.dx[0] / d.dlambda - slope) < 1e-9;
+                                  }),
+                    1)
+              << angle << ", " << bend;
+      int ends = 0;  // of the curve that the start does not lie on
+      for (const Branch& branch : diagram.branches) {
+        const CurvePoint& end = branch.curve.hits.back().point;
+        const double off = end.x[0] - bend * end.lambda * end.lambda / 2;
+        if (std::abs(off - angle * end.lambda) < 1e-10) ++ends;
+      }
+      EXPECT_EQ(ends, 2) << angle << ", " << bend;
+    }
 }
 
 /// V = z^4 / 4 - (gap / 2)^2 z^2 / 2 - lambda z: limit points at z = -+ gap / (2 sqrt 3), unstable between them.
