@@ -17,10 +17,11 @@ int junction_where(const Walker& walker, const std::vector<Junction>& junctions,
     });
   };
   int best = -1;
-  double nearest = same;
+  double nearest = infinity;
   for (std::size_t i = 0; i < junctions.size(); ++i) {
     const double distance = length_of(walker, between(walker, junctions[i].point, point));
-    if (!(distance <= nearest) || just_passed(static_cast<int>(i)) ||
+    const bool is_here = distance <= std::max(same, junctions[i].reach);
+    if (!is_here || distance > nearest || just_passed(static_cast<int>(i)) ||
         are_in_different_pieces(walker, junctions[i].point, point))
       continue;
     best = static_cast<int>(i);

@@ -99,10 +99,17 @@ struct WayBack {
   bool reached = false;    ///< the last hit of `curve` is the junction itself
 };
 
+/// How near to a junction special points need not be told apart from it? Where several modes vanish together, or nearly, ways
+/// on which more than one takes part begin beside it, on others of its ways.
+double own_reach(const Junction& junction) {
+  const bool is_multiple = junction.kind == HitKind::branch_point && junction.multiplicity > 1;
+  return is_multiple ? std::max(junction.reach, told_apart * scale_of(junction.point)) : 0;
+}
+
 /// Its steps depend on the length of the gap only, so that it is the same at every step length of the caller.
 WayBack trace_back(const Walker& walker, const std::vector<Event>& events,
-                   const DiagramOptions& options, const CurvePoint& junction, const Way& way,
-                   double gap) {
+                   const DiagramOptions& options, const Junction& at, const Way& way, double gap) {
+  const CurvePoint& junction = at.point;
   WayBack back;
   // Rounding blurs the place of a multiple point, and beside a degenerate one lambda is flat to
   // rounding; nothing else can be as near.
@@ -116,7 +123,7 @@ WayBack trace_back(const Walker& walker, const std::vector<Event>& events,
     const double blur = level                             ? aside_share
                         : hit.kind == HitKind::unresolved ? small_share
                                                           : tiny_share;
-    return distance <= std::max(options.same_place * scale, blur * gap);
+    return distance <= std::max({options.same_place * scale, blur * gap, own_reach(at)});
   };
   const auto at_hit = [&](const Hit& hit) {
     back.reached = is_junction_itself(hit);
@@ -262,18 +269,18 @@ Begin begin_along(const Walker& walker, const CurvePoint& junction, const Way& w
 }
 
 PieceBefore piece_before(const Walker& walker, const std::vector<Event>& events,
-                         const DiagramOptions& options, const CurvePoint& junction,
-                         const Way& way) {
+                         const DiagramOptions& options, const Junction& at, const Way& way) {
+  const CurvePoint& junction = at.point;
   const double gap = length_of(walker, between(walker, junction, way.start));
   if (!(gap > 0)) return {};
   PieceBefore piece{.points = {way.point}, .length = gap};
   piece.points.front().s = 0;
   const double tolerance = options.same_place * scale_of(junction);
   if (gap <= tolerance) return piece;
-  WayBack back = trace_back(walker, seen_from_behind(events), options, junction, way, gap);
+  WayBack back = trace_back(walker, seen_from_behind(events), options, at, way, gap);
   const auto found = length_back(walker, junction, way, gap, tolerance, back);
   if (!found) {
-    piece.reached = gap <= told_apart;
+    piece.reached = gap <= std::max(told_apart, own_reach(at));
     return piece;
   }
   piece.length = *found;

@@ -31,7 +31,7 @@ struct PieceBefore {
 /// Traces back from where the way's trace begins to its junction. Both curves see the same special points; those nearer to the
 /// junction than `DiagramOptions::same_place` are the junction itself.
 PieceBefore piece_before(const Walker& walker, const std::vector<Event>& events,
-                         const DiagramOptions& options, const CurvePoint& junction, const Way& way);
+                         const DiagramOptions& options, const Junction& junction, const Way& way);
 
 /// The branch goes no farther than this special point of its piece.
 /// @returns all of the branch

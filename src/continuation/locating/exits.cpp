@@ -162,8 +162,11 @@ bool bring_in(const ReducedEquation& e, const Limit& limit, RayPoint ray, double
   return true;
 }
 
+/// How a branch leaves the point: as it does right there, or across the sphere on which it was found.
+enum class Leaving { at_the_point, across_the_sphere };
+
 /// Adds the branch of one ray, or a reason why not all is well.
-void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho,
+void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho, Leaving leaving,
               const NearEnough& near_enough, Exits& result) {
   const auto doubt = [&](std::string why) {
     result.complete = false;
@@ -171,7 +174,8 @@ void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho,
   };
   auto start = branch_point_of(e, ray);
   if (!start) return doubt("a branch near the point could not be corrected to the tolerance");
-  const Limit limit = limit_of(e, ray, rho);
+  const Limit limit = leaving == Leaving::at_the_point ? limit_of(e, ray, rho)
+                                                       : Limit{ray.c.normalized(), promised_place};
   if (limit.c.size() == 0) return doubt("a branch near the point could not be followed into it");
   if (limit.accuracy > nearly_same_line)
     doubt("the tangent of a branch is known to " + rounded(limit.accuracy) + " only");
@@ -181,7 +185,7 @@ void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho,
           .dot(Vector(
                    scaled_point({.x = start->tangent.dx, .lambda = start->tangent.dlambda}, e.root))
                    .normalized());
-  if (away < std::cos(std::numbers::pi / 6)) doubt("a branch is strongly curved near the point");
+  if (leaving == Leaving::at_the_point && away < std::cos(std::numbers::pi / 6)) doubt("a branch is strongly curved near the point");
   const Direction tangent = direction_of(e, e.N * limit.c);
   const CurvePoint found = *start;
   if (near_enough && !bring_in(e, limit, ray, rho, tangent, near_enough, *start))
@@ -205,9 +209,8 @@ struct Search {
   bool crosses = false;  ///< two curves cross, and only these
 };
 
-/// Smaller and smaller spheres until neighbouring ones show the same.
-Search search_inwards(const ReducedEquation& e, double rho, int radii) {
-  const int needed = e.k == 2 ? 2 : 3;
+/// Smaller and smaller spheres until neighbouring ones, as many as are needed, show the same.
+Search search_inwards(const ReducedEquation& e, double rho, int radii, int needed) {
   const double shrink = e.k == 2 ? 0.5 : 1.0 / 3;
   const std::vector<Vector> sure = quadratic_rays(e);
   const bool crosses = is_crossing_of_two(e, sure);
@@ -243,9 +246,11 @@ bool are_parted(const Walker& walker, const std::vector<Exit>& exits) {
   return true;
 }
 
-Exits exits_of(const ReducedEquation& e, const Search& search, const NearEnough& near_enough) {
+Exits exits_of(const ReducedEquation& e, const Search& search, Leaving leaving,
+               const NearEnough& near_enough) {
   Exits result;
-  for (const RayPoint& ray : search.set.rays) add_exit(e, ray, search.set.rho, near_enough, result);
+  for (const RayPoint& ray : search.set.rays)
+    add_exit(e, ray, search.set.rho, leaving, near_enough, result);
   if (result.complete && search.crosses && !are_parted(*e.walker, result.exits)) {
     result.complete = false;
     result.why = "curves cross under so small an angle that their ways are not told apart";
@@ -272,13 +277,24 @@ Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
   if (!e) return {.complete = false, .why = "the equations cannot be expanded at this point"};
   const double rho = std::min(2 * negligible_share * e->scale,
                               small_share / std::max(e->curvature, promised_place));
-  Search search = search_inwards(*e, rho, 8);
+  Search search = search_inwards(*e, rho, 8, corank == 2 ? 2 : 3);
   // Branches that only terms of fifth order and higher tell apart drown in rounding further in.
   if (!search.doubt.empty() && corank == 2) {
-    Search further_out = search_inwards(*e, 6 * rho, 5);
+    Search further_out = search_inwards(*e, 6 * rho, 5, 2);
     if (further_out.doubt.empty()) search = std::move(further_out);
   }
-  return exits_of(*e, search, near_enough);
+  return exits_of(*e, search, Leaving::at_the_point, near_enough);
+}
+
+Exits exits_of_close_modes(const Walker& walker, const CurvePoint& at,
+                           const NearEnough& near_enough) {
+  if (at.x.size() < 2 || (walker.problem.structured() && at.x.size() > most_entries)) return {};
+  const auto e = reduce(walker, at, 2);
+  if (!e) return {.complete = false, .why = "the equations cannot be expanded at this point"};
+  constexpr int spheres = 3;  // twice and four times as far out there must be the same
+  const double rho = 4 * told_apart * e->scale;
+  return exits_of(*e, search_inwards(*e, rho, spheres, spheres), Leaving::across_the_sphere,
+                  near_enough);
 }
 
 int corank_of(const Walker& walker, const CurvePoint& at, double share) {

@@ -53,6 +53,11 @@ using NearEnough = std::function<bool(const CurvePoint& start, const Direction& 
 Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
                const NearEnough& near_enough = {});
 
+/// All branches that leave a simple branch point beside which another mode vanishes: those that cross the sphere within which
+/// special points need not be told apart, by the reduced equations of both modes.
+Exits exits_of_close_modes(const Walker& walker, const CurvePoint& at,
+                           const NearEnough& near_enough = {});
+
 /// Corank of [dF/dx dF/dlambda] at a point: how many of its singular values are below the share, which is as good as the
 /// point is known, and separated from the others by a gap, after rows and columns have been divided by their sizes. Sizes
 /// are those of the matrix here or a hundredth of its change within a tenth, whichever is larger: here all of it may

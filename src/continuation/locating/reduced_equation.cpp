@@ -62,8 +62,22 @@ std::optional<Matrix> second_derivative(const ReducedEquation& e, Index i, doubl
   return sum;
 }
 
-bool expand(ReducedEquation& e, double h) {
+/// Left borders B with L^T B = I, as the matrix moves along the path: what of D^2F[N_i, N_m] lies in the range of J is the
+/// mode's own turning and no bend of the chart. Another mode that is nearly critical would make a large one of it. L itself
+/// where the modes do not move.
+Matrix moving_with(const ReducedEquation& e, const Matrix& D) {
+  const Matrix moves = D.leftCols(e.k);
+  const Lu share(e.L.transpose() * moves);
+  if (!e.follows || !(share.smallest_pivot() > small_share * moves.norm())) return e.L;
+  return share.solve_transposed(moves.transpose()).transpose();
+}
+
+bool expand(ReducedEquation& e, const ExtendedMatrix& J, double h) {
   const Index n = e.L.rows(), m = e.k + 1;
+  const auto along = second_derivative(e, m - 1, h);
+  if (!along) return false;
+  e.B = moving_with(e, *along);
+  e.bordered = BorderedMatrix(J, {e.B, e.N});
   e.quadratic.assign(static_cast<std::size_t>(e.k), Matrix::Zero(m, m));
   e.bend.clear();
   e.curvature = 0;
@@ -150,9 +164,8 @@ std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at
   const auto J = jacobian_at(walker, e.U0, e.root, e.piece);
   if (!J || !find_kernels(*J, e)) return std::nullopt;
   e.follows = turn_kernel(e.N);
-  e.bordered = BorderedMatrix(*J, {e.L, e.N});
   for (double h = tiny_share * e.scale; h > poor; h /= 10)
-    if (expand(e, h) && h * e.curvature < small_share) return e;
+    if (expand(e, *J, h) && h * e.curvature < small_share) return e;
   return std::nullopt;
 }
 
@@ -176,7 +189,7 @@ std::optional<ReducedValue> reduced_value(const ReducedEquation& e, const Vector
     if (slow) {
       const auto J = jacobian_at(*e.walker, U1 + w, e.root, e.piece);
       if (!J) return std::nullopt;
-      own = BorderedMatrix(*J, {e.L, e.N});
+      own = BorderedMatrix(*J, {e.B, e.N});
       system = &own;
     }
     if (!residual_at(e, U1 + w, F)) return std::nullopt;
