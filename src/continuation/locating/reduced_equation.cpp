@@ -62,21 +62,21 @@ std::optional<Matrix> second_derivative(const ReducedEquation& e, Index i, doubl
   return sum;
 }
 
-/// Left borders B with L^T B = I, as the matrix moves along the path: what of D^2F[N_i, N_m] lies in the range of J is the
-/// mode's own turning and no bend of the chart. Another mode that is nearly critical would make a large one of it. L itself
-/// where the modes do not move.
-Matrix moving_with(const ReducedEquation& e, const Matrix& D) {
-  const Matrix moves = D.leftCols(e.k);
+/// Left borders B with L^T B = I that move as the matrix does along the path, D^2F[N_i, N_m]: what of these lies in the range
+/// of J is the mode's own turning and no bend of the chart, but another mode that is nearly critical makes a large one of it.
+/// L itself where the modes do not move.
+Matrix moving_with_path(const ReducedEquation& e, double h) {
+  const auto D = second_derivative(e, e.k, h);
+  if (!e.follows || !D) return e.L;
+  const Matrix moves = D->leftCols(e.k);
   const Lu share(e.L.transpose() * moves);
-  if (!e.follows || !(share.smallest_pivot() > small_share * moves.norm())) return e.L;
+  if (!(share.smallest_pivot() > small_share * moves.norm())) return e.L;
   return share.solve_transposed(moves.transpose()).transpose();
 }
 
-bool expand(ReducedEquation& e, const ExtendedMatrix& J, double h) {
+bool expand(ReducedEquation& e, const ExtendedMatrix& J, const Matrix& B, double h) {
   const Index n = e.L.rows(), m = e.k + 1;
-  const auto along = second_derivative(e, m - 1, h);
-  if (!along) return false;
-  e.B = moving_with(e, *along);
+  e.B = B;
   e.bordered = BorderedMatrix(J, {e.B, e.N});
   e.quadratic.assign(static_cast<std::size_t>(e.k), Matrix::Zero(m, m));
   e.bend.clear();
@@ -164,8 +164,11 @@ std::optional<ReducedEquation> reduce(const Walker& walker, const CurvePoint& at
   const auto J = jacobian_at(walker, e.U0, e.root, e.piece);
   if (!J || !find_kernels(*J, e)) return std::nullopt;
   e.follows = turn_kernel(e.N);
+  const auto is_flat = [&](const Matrix& B, double h) {
+    return expand(e, *J, B, h) && h * e.curvature < small_share;
+  };
   for (double h = tiny_share * e.scale; h > poor; h /= 10)
-    if (expand(e, *J, h) && h * e.curvature < small_share) return e;
+    if (is_flat(e.L, h) || is_flat(moving_with_path(e, h), h)) return e;
   return std::nullopt;
 }
 
