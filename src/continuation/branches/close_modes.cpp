@@ -49,8 +49,8 @@ bool take_in(const Walker& walker, const DiagramOptions& options, const Hit& hit
       !active_switches(walker, point.x, point.lambda).empty() ||
       (options.left_out && !options.left_out(point).empty()))
     return false;
-  const Exits exits = exits_of_close_modes(
-      walker, point, [&](const CurvePoint& start, const Direction& tangent) {
+  const Exits exits =
+      exits_of_close_modes(walker, point, [&](const CurvePoint& start, const Direction& tangent) {
         return before_next_surface(walker, point, {}, start, tangent);
       });
   if (!exits.complete) return false;

@@ -185,7 +185,8 @@ void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho, Leaving
           .dot(Vector(
                    scaled_point({.x = start->tangent.dx, .lambda = start->tangent.dlambda}, e.root))
                    .normalized());
-  if (leaving == Leaving::at_the_point && away < std::cos(std::numbers::pi / 6)) doubt("a branch is strongly curved near the point");
+  if (leaving == Leaving::at_the_point && away < std::cos(std::numbers::pi / 6))
+    doubt("a branch is strongly curved near the point");
   const Direction tangent = direction_of(e, e.N * limit.c);
   const CurvePoint found = *start;
   if (near_enough && !bring_in(e, limit, ray, rho, tangent, near_enough, *start))
