@@ -22,10 +22,11 @@ struct SigmaNear {
 /// @returns nothing where a point of the window cannot be computed
 std::optional<SigmaNear> sigma_near(const TestedStep& arc, double t, double length, Index m);
 
-/// Where one mode of Sigma vanishes.
+/// Where modes of Sigma vanish: one, or several at one place, for all that rounding says.
 struct ZeroOfMode {
   double at = 0;
   double off = 0;  ///< estimated error of the place
+  Index m = 1;     ///< how many
 };
 
 /// The determinant of modes that vanish close together is their product, lost in its rounding long before they are. Sigma
@@ -34,7 +35,8 @@ struct ZeroOfMode {
 ///     Sigma(t) + d Sigma'(t),
 ///
 /// and the distances d at which that is singular are the modes' own, each followed to its end.
-/// @returns in order; none where the modes within `reach`, and the window, are not all real and told apart, by more than places are promised
+/// @returns in order; none where the modes within `reach`, and the window, are not all real, or are not told apart, by more
+///          than places are promised, though they do not vanish at one place
 std::vector<ZeroOfMode> modes_near(const SigmaNear& near, double t, double reach);
 
 }  // namespace springfold::continuation

@@ -14,6 +14,9 @@
 namespace springfold::continuation {
 namespace {
 
+/// What lies nearer than this share of the way to the next zeros belongs to these.
+constexpr double so_far = 2 * near_share;
+
 /// What is left of Sigma near a place where all of it should vanish, as an error of the place: the
 /// largest t with Sigma v = t Sigma' v. Zero where Sigma cannot be told from zero.
 double left_of(const Vector& entries, const Vector& slopes, Index m, double nothing) {
@@ -63,7 +66,7 @@ std::vector<Singularity> multiple_zeros(const TestedStep& arc, double t, double 
   std::vector<Singularity> best;
   for (const double share : half_decades<5>()) {
     auto found = multiple_zeros_on(arc, t, share * (arc.high() - arc.low()), m);
-    std::erase_if(found, [&](const Singularity& s) { return std::abs(s.at - t) > 0.6 * free; });
+    std::erase_if(found, [&](const Singularity& s) { return std::abs(s.at - t) > so_far * free; });
     if (!found.empty() && (best.empty() || worst(found) < worst(best))) best = std::move(found);
     if (!best.empty() && worst(best) < residual_level) break;
   }
@@ -102,36 +105,60 @@ bool contradict_one_place(const TestedStep& arc, const SigmaNear& near,
   CurvePoint middle = arc.from();
   middle.x = u.head(u.size() - 1);
   middle.lambda = u[u.size() - 1];
-  const auto one = place_branch_point(arc.walker(), middle, static_cast<int>(modes.size()));
+  Index m = 0;
+  for (const ZeroOfMode& zero : modes) m += zero.m;
+  const auto one = place_branch_point(arc.walker(), middle, static_cast<int>(m));
   return one && one->misfit > small_share * (last - first);
 }
 
-/// Several modes vanish close together, where the determinant is lost in its rounding: each of them on its own.
-/// @returns none unless all of them are told apart, and are as many as the signs of the determinant ask for
-std::vector<Candidate> apart_at(const TestedStep& arc, const std::vector<ZeroOf>& zeros, Index most,
-                                double free) {
+/// The places of modes that are told apart, each with its exact point, in order and none on another's.
+/// @returns none unless all of them have one
+std::vector<Candidate> candidates_of(const TestedStep& arc, const SigmaNear& near,
+                                     const std::vector<ZeroOfMode>& modes,
+                                     const std::vector<ZeroOf>& zeros, double free) {
+  Index all = 0;
+  for (const ZeroOfMode& zero : modes) all += zero.m;
+  std::vector<Candidate> result;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const auto& [at, off, m] = modes[i];
+    double alone = free;
+    if (i > 0) alone = std::min(alone, at - modes[i - 1].at);
+    if (i + 1 < modes.size()) alone = std::min(alone, modes[i + 1].at - at);
+    const Singularity place{at, near.curve(at), near.curve.slope(at), off, alone};
+    auto candidate = candidate_at(arc, place, zeros, m, false, all);
+    if (!candidate || !(std::abs(candidate->at - at) <= near_share * alone)) return {};
+    result.push_back(std::move(*candidate));
+  }
+  return result;
+}
+
+/// Several modes vanish close together, where the determinant is lost in its rounding: each of them on its own, or with those
+/// that vanish at the same place.
+struct Apart {
+  std::vector<Candidate>
+      found{};  ///< none unless all of them are told apart, and as many as the determinant's signs ask for
+  bool several = false;  ///< more than one mode vanishes here
+};
+
+Apart apart_at(const TestedStep& arc, const std::vector<ZeroOf>& zeros, Index most, double free) {
+  Apart result;
   const double middle = 0.5 * (zeros.front().at + zeros.back().at);
+  const double reach = 0.5 * (zeros.back().at - zeros.front().at) + so_far * free;
   const auto crossings =
       std::count_if(zeros.begin(), zeros.end(), [](const ZeroOf& z) { return !z.touches; });
   for (const double share : half_decades<3>()) {
     const auto near = sigma_near(arc, middle, share * (arc.high() - arc.low()), most);
-    const auto modes = near ? modes_near(*near, middle, 0.6 * free) : std::vector<ZeroOfMode>{};
-    if (modes.size() == 1 && crossings == 1) return {};
-    if (modes.size() < 2 || std::ssize(modes) % 2 != crossings % 2) continue;
+    const auto modes = near ? modes_near(*near, middle, reach) : std::vector<ZeroOfMode>{};
+    Index all = 0;
+    for (const ZeroOfMode& zero : modes) all += zero.m;
+    if (all == 1 && crossings == 1) return {};
+    result.several = result.several || all > 1;
+    if (modes.size() < 2 || all % 2 != crossings % 2) continue;
     if (!contradict_one_place(arc, *near, modes)) continue;
-    std::vector<Candidate> result;
-    for (std::size_t i = 0; i < modes.size(); ++i) {
-      const double at = modes[i].at;
-      double alone = free;
-      if (i > 0) alone = std::min(alone, at - modes[i - 1].at);
-      if (i + 1 < modes.size()) alone = std::min(alone, modes[i + 1].at - at);
-      const Singularity place{at, near->curve(at), near->curve.slope(at), modes[i].off, alone};
-      if (auto candidate = candidate_at(arc, place, zeros, 1, false, std::ssize(modes)))
-        result.push_back(std::move(*candidate));
-    }
-    if (result.size() == modes.size()) return result;
+    result.found = candidates_of(arc, *near, modes, zeros, free);
+    if (!result.found.empty()) break;
   }
-  return {};
+  return result;
 }
 
 /// Branch points where zeros of det Sigma lie together: each on its own where the modes are told apart, multiple ones if all
@@ -150,10 +177,8 @@ std::vector<Candidate> branch_points_at(const TestedStep& arc, const std::vector
   };
   const bool is_simple = zeros.size() == 1 && crossings == 1 && most > 1 &&
                          is_simple_zero(arc, zeros.front().at, most, free);
-  if (!is_simple && most > 1) {
-    result = apart_at(arc, zeros, most, free);
-    if (!result.empty()) return result;
-  }
+  const Apart apart = is_simple || most == 1 ? Apart{} : apart_at(arc, zeros, most, free);
+  if (!apart.found.empty()) return apart.found;
   for (Index m = is_simple ? 1 : most; m > 1; --m) {
     const auto places = multiple_zeros(arc, middle, free, m);
     for (const Singularity& place : places) add(place, m, false);
@@ -171,7 +196,7 @@ std::vector<Candidate> branch_points_at(const TestedStep& arc, const std::vector
       return result;
     }
   }
-  if (zeros.size() > 1) return {};
+  if (zeros.size() > 1 || apart.several) return {};
   const bool touches = zeros.front().touches;
   // Of several modes one must be seen to vanish alone.
   if (touches && most > 1 && vanishing_modes(arc, most, zeros.front()) != 1) return {};
