@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <type_traits>
+#include <utility>
 
 #include "springfold/continuation/newton.hpp"
 
@@ -39,8 +42,7 @@ class Watcher {
         stations.push_back(hit.point);
         stations.push_back(side);
       }
-    std::stable_sort(stations.begin(), stations.end(),
-                     [](const CurvePoint& a, const CurvePoint& b) { return a.s < b.s; });
+    std::stable_sort(stations.begin(), stations.end(), is_before<CurvePoint>);
     const CurvePoint* before = nullptr;
     std::optional<int> count;
     for (const CurvePoint& station : stations) {
@@ -51,11 +53,40 @@ class Watcher {
       before = &station;
       count = next;
     }
-    std::stable_sort(curve.hits.begin(), curve.hits.end(),
-                     [](const Hit& a, const Hit& b) { return a.point.s < b.point.s; });
+    std::stable_sort(curve.hits.begin(), curve.hits.end(), is_before<Hit>);
+    part_hits(curve);
   }
 
  private:
+  /// Counts beside a special point are those of the rows beside it: between two of them there must be one.
+  void part_hits(Curve& curve) const {
+    std::vector<CurvePoint> more;
+    const Hit* last = nullptr;
+    for (const Hit& hit : curve.hits) {
+      if (!is_special(hit)) continue;
+      const Hit* const before = std::exchange(last, &hit);
+      if (before == nullptr) continue;
+      const CurvePoint& a = before->leaving.size() == 1 ? before->leaving.front() : before->point;
+      const CurvePoint& b = hit.point;
+      const bool are_parted = std::any_of(
+          curve.points.begin(), curve.points.end(),
+          [&](const CurvePoint& point) { return point.s > a.s && point.s < b.s; });
+      if (are_parted || a.piece != b.piece || !(b.s > a.s)) continue;
+      if (auto point = point_at(a, b, 0.5)) more.push_back(std::move(*point));
+    }
+    curve.points.insert(curve.points.end(), std::make_move_iterator(more.begin()),
+                        std::make_move_iterator(more.end()));
+    std::stable_sort(curve.points.begin(), curve.points.end(), is_before<CurvePoint>);
+  }
+
+  template <class Item>
+  static bool is_before(const Item& a, const Item& b) {
+    if constexpr (std::is_same_v<Item, Hit>)
+      return a.point.s < b.point.s;
+    else
+      return a.s < b.s;
+  }
+
   std::optional<int> count_at(const CurvePoint& point) const {
     const double value = t_.evaluator.value(*force_, point);
     return std::isnan(value) ? std::nullopt : std::optional{static_cast<int>(std::lround(value))};

@@ -203,6 +203,16 @@ class Threshold {
       if (at == At::clear) clear = value;
       if (at == At::happens) bad = value;
     }
+    // Nearer to its end a path without it may only not tell it from its neighbour: then it is the same path all along.
+    bool is_near_end = false;
+    for (std::size_t i = distances_beside.size() - 1; i-- > 0 && !clear && !at_end;) {
+      const double value = beyond(to, -distances_beside[i]);
+      if (towards_ * (value - bad) <= 0) break;
+      const At at = look(value);
+      is_near_end = at == At::clear;
+      if (is_near_end) clear = value;
+      if (at == At::happens) bad = value;
+    }
     while (clear && std::abs(*clear - bad) > closest_bracket * std::abs(to - from)) {
       const double middle = bad + 0.5 * (*clear - bad);
       const At at = look(middle);
@@ -219,8 +229,23 @@ class Threshold {
       }
       (at == At::clear ? *clear : bad) = middle;
     }
+    if (is_near_end && !paths_part(bad, *clear)) clear.reset();
     why_ = told;
     return clear;
+  }
+
+  /// Do the paths at two values next to each other go different ways?
+  bool paths_part(double a, double b) const {
+    constexpr double parted = 1e-6;  // of the size of the state: values next to each other move it far less
+    const auto end = [&](double value) {
+      const continuation::CurvePoint last =
+          base_path(*curves_.at(value), true, observer_).forward.points.back();
+      Vector state(last.x.size() + 1);
+      state << last.x, last.lambda;
+      return state;
+    };
+    const Vector from = end(a), to = end(b);
+    return (from - to).norm() > parted * std::max(1.0, from.norm());
   }
 
   /// The point of a curve whose parameter comes nearest to a value before it.
