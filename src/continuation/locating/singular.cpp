@@ -268,11 +268,23 @@ bool is_of_one_mode(const ExtendedMatrix& E) {
   return least.size() < 2 || (least[1] > told_apart && least[0] <= negligible_share * least[1]);
 }
 
+/// The curve at a zero, from points beside it: corrected right there a point may have moved along the mode that vanishes.
+std::optional<CurvePoint> point_on_curve(const TestedStep& arc, const ZeroOf& zero) {
+  const auto curve = curve_near(arc, zero.at, aside_share * arc.length());
+  if (!curve) return std::nullopt;
+  const Vector u = (*curve)(zero.at);
+  CurvePoint point = arc.from();
+  point.x = u.head(u.size() - 1);
+  point.lambda = u[u.size() - 1];
+  point.tangent = unit_direction(arc.walker(), curve->slope(zero.at));
+  return point;
+}
+
 /// Takes out the zeros of one mode whose branch does not lead on.
 std::size_t pass_over(const TestedStep& arc, const LeadsOn& leads_on, TestedZeros& singular) {
   if (!leads_on) return 0;
   return std::erase_if(singular.zeros, [&](const ZeroOf& zero) {
-    const auto& point = arc.point(zero.at);
+    const auto point = point_on_curve(arc, zero);
     const auto E = point ? arc.matrix(*point) : std::nullopt;
     if (!E || (singular.order > 1 && !is_of_one_mode(*E))) return false;
     const Vector null = weakest_borders(*E).C.col(0);
