@@ -11,6 +11,7 @@
 #include "merged_hits.hpp"
 #include "null_modes.hpp"
 #include "row_indices.hpp"
+#include "springfold/analysis/event_rows.hpp"
 #include "switch_words.hpp"
 
 namespace springfold::analysis {
@@ -33,6 +34,11 @@ bool turns_back(const Event& event, const std::vector<QuantityDefinition>& quant
     return before * after < 0 && std::abs(before) > least && std::abs(after) > least;
   }
   return false;
+}
+
+/// Does lambda turn back where branches meet? The point is called after these.
+bool lambda_turns(const CurvePoint& before, const CurvePoint& here, const CurvePoint& behind) {
+  return (here.lambda - before.lambda) * (behind.lambda - here.lambda) < 0;
 }
 
 /// Both curves as one, from the backward end on; nothing where their arcs were not tested.
@@ -222,6 +228,10 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
     const Entry* next = i + 1 < entries.size() ? &entries[i + 1] : nullptr;
     Event event = hit_event(e, i, next, evaluator, quantities, problem);
     const bool first = i == 0, last = next == nullptr;
+    if (is_meeting_of_branches(event.kind) && !first && !last &&
+        lambda_turns(entries[i - 1].point, e.point, next->point))
+      event.detail +=
+          evaluator.force_is_lambda() ? ", the force turns back" : ", lambda turns back";
     const bool is_singular =
         event.kind == EventKind::branch_point || event.kind == EventKind::touch;
     if (const auto found = is_singular ? kinematic_singularity(problem, e.point) : std::nullopt) {

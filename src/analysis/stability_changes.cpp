@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "springfold/continuation/newton.hpp"
+#include "springfold/core/rounding.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -54,12 +55,13 @@ class Watcher {
       count = next;
     }
     std::stable_sort(curve.hits.begin(), curve.hits.end(), is_before<Hit>);
-    part_hits(curve);
   }
 
- private:
-  /// Counts beside a special point are those of the rows beside it: between two of them there must be one.
+  /// Counts beside a special point are those of the rows beside it: between two of them there must be one. It is solved to
+  /// rounding where that can be: beside singular points the tolerance leaves more than what lies between.
   void part_hits(Curve& curve) const {
+    continuation::NewtonOptions finest = options_;
+    finest.residual_tolerance = few_roundings;
     std::vector<CurvePoint> more;
     const Hit* last = nullptr;
     for (const Hit& hit : curve.hits) {
@@ -68,12 +70,16 @@ class Watcher {
       if (before == nullptr) continue;
       const CurvePoint& a = before->leaving.size() == 1 ? before->leaving.front() : before->point;
       const CurvePoint& b = hit.point;
-      const bool are_parted = std::any_of(
-          curve.points.begin(), curve.points.end(),
-          [&](const CurvePoint& point) { return point.s > a.s && point.s < b.s; });
+      const bool are_parted =
+          std::any_of(curve.points.begin(), curve.points.end(),
+                      [&](const CurvePoint& point) { return point.s > a.s && point.s < b.s; });
       if (are_parted || a.piece != b.piece || !(b.s > a.s)) continue;
-      if (auto point = point_at(a, b, 0.5)) more.push_back(std::move(*point));
+      auto point = point_at(a, b, 0.5, finest);
+      if (!point) point = point_at(a, b, 0.5, options_);
+      if (!point) continue;
+      more.push_back(std::move(*point));
     }
+    if (more.empty()) return;
     curve.points.insert(curve.points.end(), std::make_move_iterator(more.begin()),
                         std::make_move_iterator(more.end()));
     std::stable_sort(curve.points.begin(), curve.points.end(), is_before<CurvePoint>);
@@ -94,7 +100,8 @@ class Watcher {
 
   /// The curve's point on the plane across the chord at a part of the way, from the cubic through both ends. Nothing where the
   /// point that is found has another direction: it is one of a branch that crosses.
-  std::optional<CurvePoint> point_at(const CurvePoint& a, const CurvePoint& b, double part) const {
+  std::optional<CurvePoint> point_at(const CurvePoint& a, const CurvePoint& b, double part,
+                                     const continuation::NewtonOptions& options) const {
     Direction chord{b.x - a.x, b.lambda - a.lambda};
     const double length = std::sqrt(continuation::metric_product(weights_, chord, chord));
     if (!(length > 0)) return std::nullopt;
@@ -111,7 +118,7 @@ class Watcher {
     const Direction way = along(-6 * p * q / length, 6 * p * q / length, q * (q - 2 * p) / length,
                                 p * (p - 2 * q) / length);
     const auto solved = continuation::correct(t_.problem, weights_, place.dx, place.dlambda,
-                                              a.piece, border, options_);
+                                              a.piece, border, options);
     continuation::Linearisation at;
     if (!continuation::converged(solved) ||
         !continuation::linearise(t_.problem, solved.x, solved.lambda, a.piece, at))
@@ -126,6 +133,7 @@ class Watcher {
     point.lambda = solved.lambda;
     point.s = a.s + part * (b.s - a.s);
     point.tangent = *tangent;
+    point.negative = continuation::negative_eigenvalues(at);
     return point;
   }
 
@@ -142,7 +150,8 @@ class Watcher {
       const double part = continuation::metric_product(weights_, way, chord) / square;
       const double aside = 0.5 * same_place / std::sqrt(square);
       if (!(part > aside) || !(part < 1 - aside)) continue;
-      const auto before = point_at(a, b, part - aside), behind = point_at(a, b, part + aside);
+      const auto before = point_at(a, b, part - aside, options_),
+                 behind = point_at(a, b, part + aside, options_);
       if (!before || !behind) continue;
       if (count_at(*before) == from && count_at(*behind) == to) return true;
     }
@@ -160,7 +169,7 @@ class Watcher {
       std::optional<CurvePoint> at;
       for (int i = 0; i < halvings && high - low > 1e-15; ++i) {
         const double middle = low + (high - low) / 2;
-        const auto trial = point_at(a, b, middle);
+        const auto trial = point_at(a, b, middle, options_);
         if (!trial) {
           // Beside the branch point at which the curve begins or ends there are no points: it changes there.
           const bool begins = low == 0 && a.s == curve.points.front().s;
@@ -225,10 +234,12 @@ class Watcher {
 void add_stability_changes(const Tracing& tracing, BranchSource& source) {
   const ControlMode control = tracing.study.control;
   const bool holds = control == ControlMode::pose || control == ControlMode::mixed;
-  if (!holds || !tracing.problem.symmetric()) return;
+  if (!tracing.problem.symmetric()) return;
   Watcher watcher(tracing);
-  watcher.watch(source.forward);
-  watcher.watch(source.backward);
+  for (Curve* curve : {&source.forward, &source.backward}) {
+    if (holds) watcher.watch(*curve);
+    watcher.part_hits(*curve);
+  }
 }
 
 }  // namespace springfold::analysis
