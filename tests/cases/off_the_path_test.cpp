@@ -54,6 +54,47 @@ threshold = { of = "loss_of_stability", parameter = "psi", range = [-0.6, 0.6] }
   EXPECT_TRUE(complete(result));
 }
 
+TEST(OffThePath, AThresholdIsACrossingJustBeforeTheEndOfThePointThatIsFollowed) {
+  // An Orthoglide with one-sided springs in its knees: the corner goes on for 1.2e-4 behind the crossing at which the path
+  // leaves it, to where it touches the surface of its spring. The crossing is one of F = 0 and adj(H) d = 0 on the piece
+  // without springs, H the stiffness and d the direction of the load, solved in 25 digits.
+  const auto result = run(R"toml(
+[parameters]
+psi = 1.3962
+[[body]]
+name = "tool"
+task_space = "xy"
+pose = [0, 0]
+[[chain]]
+name = "leg_x"
+elements = [
+  { joint = "prismatic", axis = "x", name = "drive", role = "actuated", value = 0.8897, stiffness = 0.838 },
+  { joint = "revolute", axis = "-z", name = "knee", role = "preloaded", spring = { law = "one_sided", stiffness = 0.091805201865328, from = 0.3716 } },
+  { rigid = [-0.8897, 0] },
+]
+[[chain]]
+name = "leg_y"
+elements = [
+  { joint = "prismatic", axis = "y", name = "drive", role = "actuated", value = 0.8897, stiffness = 0.9576 },
+  { joint = "revolute", axis = "z", name = "knee", role = "preloaded", spring = { law = "one_sided", stiffness = 0.057908917072566, from = 0.099 } },
+  { rigid = [0, -0.8897] },
+]
+[[study]]
+name = "s"
+kind = "threshold"
+control = "load"
+direction = ["cos(psi)", "sin(psi)"]
+start = { pose = [0.04750998, 0.17811794], solve = "actuators" }
+until = { deflection = [-0.05, 0.536], lambda = [-0.1, 4] }
+threshold = { of = "loss_of_stability", parameter = "psi", range = [-0.3, 2.2], value = "smallest" }
+)toml")
+                          .of("s");
+  ASSERT_TRUE(result.threshold && result.threshold->found);
+  EXPECT_NEAR(result.threshold->value, 1.884057643126777, 1e-9);
+  EXPECT_TRUE(result.threshold->verified);
+  EXPECT_TRUE(complete(result));
+}
+
 TEST(OffThePath, FirstCriticalLoadsAreKnownOnBothSidesOfAKinkOfTheCase) {
   // A guided truss over a post that is stiffer beyond the length b. Where its free length f passes b the law itself has a kink
   // in f: below the force is k1 (u - f), above k2 (b - f) + k1 (u - b).
