@@ -236,7 +236,8 @@ class Threshold {
 
   /// Do the paths at two values next to each other go different ways?
   bool paths_part(double a, double b) const {
-    constexpr double parted = 1e-6;  // of the size of the state: values next to each other move it far less
+    constexpr double parted =
+        1e-6;  // of the size of the state: values next to each other move it far less
     const auto end = [&](double value) {
       const continuation::CurvePoint last =
           base_path(*curves_.at(value), true, observer_).forward.points.back();
