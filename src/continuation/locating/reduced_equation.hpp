@@ -34,14 +34,14 @@ std::optional<EquilibratedJacobian> equilibrated_jacobian(const Walker& walker,
 struct ReducedEquation {
   const Walker* walker = nullptr;
   Piece piece{};
-  Vector root{};              ///< n + 1
-  Vector U0{};                ///< n + 1
-  Index k = 0;                ///< corank
-  Matrix N{}, L{};            ///< right and left kernels: n + 1 x k + 1, n x k
-  double scale = 1;           ///< max(1, |U0|)
-  bool follows = false;       ///< the last column of N is the only one along which lambda moves
-  Matrix B{};                 ///< left borders, n x k, L^T B = I: J y + B g = right has no y within N
-  BorderedMatrix bordered{};  ///< J at U0 with B and N
+  Vector root{};         ///< n + 1
+  Vector U0{};           ///< n + 1
+  Index k = 0;           ///< corank
+  Matrix N{}, L{};       ///< right and left kernels: n + 1 x k + 1, n x k
+  double scale = 1;      ///< max(1, |U0|)
+  bool follows = false;  ///< the last column of N is the only one along which lambda moves
+  Matrix B{};            ///< left borders, n x k, L^T B = I: J y + B g = right has no y within N
+  BorderedMatrix bordered{};        ///< J at U0 with B and N
   std::vector<Matrix> quadratic{};  ///< k matrices (k + 1 x k + 1): g_m(c) = c^T Q_m c / 2 + ...
   std::vector<Vector> bend{};       ///< w(c) = sum_ij c_i c_j bend_(i (k + 1) + j) + ...
   double curvature = 0;  ///< largest |bend|: 1/length on which the kernel is a good chart
