@@ -11,7 +11,7 @@ namespace {
 
 /// Gradient of sum_i (load_i - lambda) y_i^2 / 2 + sum_ij C_ij y_i^2 y_j^2 / 4 in unknowns that are mixed by a reflection. With
 /// Y = (y_1^2, y_2^2): y = 0; one y_i = 0 and C_jj Y_j = lambda - load_j; or C Y = lambda - loads.
-struct TwoModes {
+struct CoupledModes {
   double first = 0.83, apart = 0;
   Index size() const { return 3; }
   static bool symmetric() { return true; }
@@ -67,7 +67,7 @@ struct TwoModes {
 };
 
 /// How many branches end at each of the states?
-std::vector<int> arrivals(const TwoModes& modes, const Diagram& diagram) {
+std::vector<int> arrivals(const CoupledModes& modes, const Diagram& diagram) {
   std::vector<int> count;
   for (const Vector& state : modes.states()) {
     count.push_back(0);
@@ -88,7 +88,7 @@ bool is_complete(const Diagram& diagram) {
 
 TEST(DiagramsOfCloseModes, HaveEveryBranchOnce) {
   for (const double apart : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9, 1e-10, 1e-11, 0.0}) {
-    const TwoModes modes{.apart = apart};
+    const CoupledModes modes{.apart = apart};
     const Diagram diagram = modes.diagram();
     EXPECT_TRUE(is_complete(diagram)) << apart;
     EXPECT_EQ(arrivals(modes, diagram), std::vector<int>(9, 1)) << apart;
@@ -97,7 +97,7 @@ TEST(DiagramsOfCloseModes, HaveEveryBranchOnce) {
 
 TEST(DiagramsOfCloseModes, MissNothingWithoutAWord) {
   for (double apart = 1e-3; apart > 1e-12; apart *= 0.6) {
-    const TwoModes modes{.apart = apart};
+    const CoupledModes modes{.apart = apart};
     const Diagram diagram = modes.diagram();
     if (!is_complete(diagram)) continue;
     EXPECT_EQ(arrivals(modes, diagram), std::vector<int>(9, 1)) << apart;
@@ -106,7 +106,7 @@ TEST(DiagramsOfCloseModes, MissNothingWithoutAWord) {
 
 TEST(DiagramsOfCloseModes, HaveBothBranchPointsWhereTheyAre) {
   for (const double apart : {1e-3, 1e-6, 1e-9}) {
-    const TwoModes modes{.apart = apart};
+    const CoupledModes modes{.apart = apart};
     const auto points = hits_of(modes.diagram().branches.front().curve, HitKind::branch_point);
     ASSERT_EQ(points.size(), 2u) << apart;
     for (Index i = 0; i < 2; ++i)
