@@ -160,6 +160,21 @@ bool add_where_defined(const TestedStep& arc, const Event& event, std::span<cons
   return search.resolved && (!search.zeros.empty() || !within_reach(ends));
 }
 
+/// At a singular point the equations do not say which tangent is that of the curve: zeros of what depends on it up to just
+/// before such an end of the step.
+ZeroSearch zeros_beside_singular_ends(const TestedStep& arc, Samples samples,
+                                      const SampledFunction& value, double noise) {
+  const double h = arc.length(), aside = std::min(small_share * h, told_apart);
+  const auto is_singular_at = [&](const CurvePoint& end) {
+    const auto E = arc.matrix(end);
+    return E && is_singular(*E, poor);
+  };
+  const double low = is_singular_at(*samples.front()) ? aside : 0;
+  const double high = is_singular_at(*samples.back()) ? h - aside : h;
+  if (low == 0 && high == h) return {.resolved = false};
+  return find_zeros(value, low, high, noise, one_place * h);
+}
+
 /// Zeros of the caller's event on the step. A zero at `to` belongs to this step, one at `from` to
 /// the step before; zeros without change of sign do not count.
 /// @param known  at `from`, or nullptr
@@ -186,12 +201,14 @@ bool add_user_event(const TestedStep& arc, Samples samples, const Event& event,
     if (std::abs(*outer) <= noise) *outer = 0;
   if (!within_reach(values) || keeps_its_sign(arc, event, values)) return true;
   const SampledFunction value = value_on(arc, event, values);
-  const ZeroSearch search = find_zeros(value, 0, h, noise, one_place * h);
-  const bool is_met = !search.zeros.empty() || !search.resolved;
-  // Values that are no larger than they scatter are zero to rounding all along the step, and have no zeros.
-  if (is_met && !event.of_place &&
-      scale <= clear_of_rounding * scatter_of(arc, samples, event, values))
-    return true;
+  ZeroSearch search = find_zeros(value, 0, h, noise, one_place * h);
+  if (!event.of_place && (!search.zeros.empty() || !search.resolved)) {
+    const double rough = clear_of_rounding * scatter_of(arc, samples, event, values);
+    // Values that are no larger than they scatter are zero to rounding all along the step, and have no zeros.
+    if (scale <= rough) return true;
+    if (!search.resolved && rough > noise) search = find_zeros(value, 0, h, rough, one_place * h);
+    if (!search.resolved) search = zeros_beside_singular_ends(arc, samples, value, noise);
+  }
   const auto add = [&](CurvePoint point, double before, double after) {
     found.push_back(hit_of(event, std::move(point), from.s + before, from.s + after));
   };
