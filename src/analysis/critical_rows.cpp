@@ -1,6 +1,7 @@
 #include "critical_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,6 +11,7 @@
 #include "grow_diagram.hpp"
 #include "other_modes.hpp"
 #include "springfold/analysis/row_memory.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/number_text.hpp"
 #include "vanishing_lengths.hpp"
 
@@ -147,6 +149,7 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
   }
   further.most -= static_cast<double>(followed.growing.points.size());
   followed.falling = follow(false);
+  note_passed_at_start(events, followed);
   return followed;
 }
 
@@ -244,6 +247,40 @@ void begin_at_degeneracy(const CriticalHit& hit, FollowedCurve& followed) {
   }
 }
 
+void note_passed_at_start(const std::vector<continuation::CriticalEvent>& events,
+                          FollowedCurve& followed) {
+  if (followed.growing.points.size() < 2 || followed.falling.points.size() < 2) return;
+  const CriticalPoint &start = followed.growing.points.front(), &ahead = followed.growing.points[1],
+                      &back = followed.falling.points[1];
+  const auto is_met = [&](const CriticalHit& hit) {
+    constexpr double within_start = 1e-6;  // extrema are located no better, marks far better
+    return std::any_of(followed.passed.begin(), followed.passed.end(),
+                       [&](const auto& known) {
+                         return known.kind == hit.kind && known.name == hit.name;
+                       }) ||
+           std::ranges::any_of(
+               std::array{&followed.growing, &followed.falling}, [&](const auto* side) {
+                 return std::ranges::any_of(side->hits, [&](const CriticalHit& other) {
+                   return other.kind == hit.kind && other.name == hit.name &&
+                          other.point.s <= within_start;
+                 });
+               });
+  };
+  const auto add = [&](const CriticalHit& hit) {
+    if (!is_met(hit)) followed.passed.push_back(hit);
+  };
+  if (!followed.at_start && std::abs(start.dlambda) <= continuation::flat_rate &&
+      (ahead.lambda - start.lambda) * (back.lambda - start.lambda) > 0)
+    add({.kind = Degeneracy::extremum, .name = "", .point = start});
+  for (const continuation::CriticalEvent& event : events) {
+    if (event.action != continuation::EventAction::record) continue;
+    const double before = event.value(back), here = event.value(start), behind = event.value(ahead);
+    const double size = std::max(std::abs(before), std::abs(behind));
+    if (std::abs(here) <= continuation::function_noise * size && before * behind < 0)
+      add({.kind = Degeneracy::user, .name = event.name, .point = start, .tag = event.tag});
+  }
+}
+
 const CriticalPoint* point_at(const FollowedCurve& followed, double s) {
   for (const double sign : {1.0, -1.0}) {
     const CriticalCurve& side = sign > 0 ? followed.growing : followed.falling;
@@ -261,9 +298,10 @@ Branch rows_of(const CaseCurves& curves, const FollowedCurve& followed) {
   std::reverse(rows.begin(), rows.end());
   branch.start_row = rows.size();
   const bool started = !followed.growing.points.empty();
-  if (started)
+  if (started && (followed.at_start || followed.passed.empty()))
     rows.push_back(
         {followed.growing.points.front(), followed.at_start ? &*followed.at_start : nullptr});
+  for (const CriticalHit& hit : followed.passed) rows.push_back({hit.point, &hit});
   for (Row& row : side_of(followed.growing, 1)) rows.push_back(std::move(row));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Member* member = curves.equations_at(rows[i].point.mu);

@@ -11,6 +11,7 @@ struct FollowedCurve {
   EventKind of = EventKind::limit_point;                ///< what is followed
   continuation::CriticalCurve falling{}, growing{};     ///< by the parameter, at first
   std::optional<continuation::CriticalHit> at_start{};  ///< a degeneracy that it begins at
+  std::vector<continuation::CriticalHit> passed{};      ///< extrema and marks that it begins at
 };
 
 /// "reaches its lower limit" (sense -1) or the upper one, of the parameter; the rule of the case that sets it, too.
@@ -51,6 +52,10 @@ std::vector<Quantity> critical_quantities(const CaseCurves& curves);
 
 /// The curve begins at this degeneracy: where a side meets it at the start once more, that is no point of its own.
 void begin_at_degeneracy(const continuation::CriticalHit& hit, FollowedCurve& followed);
+
+/// Neither side meets what lies where both begin: an extremum of lambda, or a marked value, is told from both.
+void note_passed_at_start(const std::vector<continuation::CriticalEvent>& events,
+                          FollowedCurve& followed);
 
 /// The point that became the row with this s of rows_of(); nullptr: there is none.
 const continuation::CriticalPoint* point_at(const FollowedCurve& followed, double s);

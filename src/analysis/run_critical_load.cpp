@@ -355,10 +355,8 @@ class LoadsOverParameter {
     leave_out_points(pieces_, at_degeneracy * width_);
     say_what_goes_on(curves_, alone_, pieces_, at_degeneracy * width_);
     for (const LoadPiece& piece : pieces_) {
-      const FollowedCurve followed{.start = piece.start,
-                                   .of = piece.of,
-                                   .falling = piece.falling.curve,
-                                   .growing = piece.growing.curve};
+      FollowedCurve followed{piece.start, piece.of, piece.falling.curve, piece.growing.curve};
+      note_passed_at_start(first_point_events(curves_, study_, piece.start.piece), followed);
       result_.branches.push_back(rows_of(curves_, followed));
     }
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
