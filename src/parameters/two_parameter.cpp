@@ -163,7 +163,9 @@ class Follower {
     };
     std::vector<CurvePoint> middles;
     Curve curve = trace_with_middles(system, X, mu, ray, events, options_, observe, middles);
-    if (parted) leave_out_last(curve);
+    const bool broken = lost && system.unfolding(curve.points.back().x) > promised_place;
+    if (broken || parted)
+      leave_out_after(broken ? 0 : std::max<std::size_t>(curve.points.size(), 2) - 2, curve);
     if (back.found()) close(*back.found(), curve);
     for (auto* points : {&curve.points, &middles})
       for (CurvePoint& point : *points) point.s += length_;
@@ -172,9 +174,9 @@ class Follower {
     if (lost) {
       curve_.kept = false;
       curve_.stop_detail =
-          parted ? "the second parameter parts the modes of this multiple branch point: "
-                   "each has a curve of its own, from values beside this one"
-                 : "the second parameter does not keep the branch";
+          parted && !broken ? "the second parameter parts the modes of this multiple branch point: "
+                              "each has a curve of its own, from values beside this one"
+                            : "the second parameter does not keep the branch";
     } else if (accepted_ >= options_.maximum_points) {
       curve_.stop = StopReason::max_points;
       curve_.stop_detail =
@@ -186,10 +188,9 @@ class Follower {
     return renew && curve.stop == StopReason::observer;
   }
 
-  /// Where modes have parted no eigenvalue is zero.
-  static void leave_out_last(Curve& curve) {
-    if (curve.points.size() < 2) return;
-    curve.points.pop_back();
+  /// Where modes have parted no eigenvalue is zero; where the branch is not kept there are no equilibria.
+  static void leave_out_after(std::size_t last, Curve& curve) {
+    curve.points.resize(last + 1);
     std::erase_if(curve.hits,
                   [end = curve.points.back().s](const Hit& hit) { return hit.point.s > end; });
   }
