@@ -15,6 +15,19 @@
 namespace springfold::analysis {
 namespace {
 
+/// Orthonormal basis of what is orthogonal to a direction, smooth in it: unknowns of neighbouring members of a family belong to
+/// each other. In the plane all around; in more dimensions, where there is none such, the reflection that takes the first axis
+/// to the direction's opposite, but for directions that all but are that opposite.
+Matrix smooth_basis_across(const Vector& direction) {
+  constexpr double all_but = -0.9;  // cosine
+  const Vector d = direction.normalized();
+  if (d.size() == 2) return Vector{{-d[1], d[0]}};
+  const Vector v = d + (d[0] > all_but ? 1 : -1) * Vector::Unit(d.size(), 0);
+  const Matrix reflection =
+      Matrix::Identity(d.size(), d.size()) - 2 / v.squaredNorm() * v * v.transpose();
+  return reflection.rightCols(d.size() - 1);
+}
+
 /// Orthonormal basis of the pose coordinates that stay free beside `direction`.
 Matrix free_directions(ControlMode control, const Vector& direction,
                        const std::vector<Index>& prescribed, Index d) {
@@ -28,7 +41,7 @@ Matrix free_directions(ControlMode control, const Vector& direction,
         N.col(column++) = Vector::Unit(d, i);
     return N;
   }
-  return orthonormal_basis(direction).rightCols(d - 1);
+  return smooth_basis_across(direction);
 }
 
 /// Largest rate in units of the scales sets the scale of lambda, again a power of two.
