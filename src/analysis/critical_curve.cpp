@@ -324,10 +324,12 @@ std::vector<FollowedCurve> run_critical_curve(const CaseCurves& curves,
   const bool is_broken = start.kind == continuation::CriticalKind::branch_point &&
                          start.corank == 1 && !(followed.growing.kept && followed.falling.kept) &&
                          !is_kept(curves.family(), start);
-  if (is_broken)
+  if (is_broken) {
     followed = limit_points_through(curves, study, start, observer);
-  else if (origin.degeneracy)
+    followed.passed.clear();  // the branch point itself stands there
+  } else if (origin.degeneracy) {
     begin_at_degeneracy(*origin.degeneracy, followed);
+  }
   result.doubts = doubts_of(curves, study, followed);
   result.branches.push_back(rows_of(curves, followed));
   std::vector<FollowedCurve> pieces{std::move(followed)};
