@@ -214,13 +214,14 @@ std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start,
   RayPoint ray{.U = start, .c = e.N.transpose() * (start - e.U0)};
   Matrix A(n + 1, n + 1);
   Vector F, right(n + 1);
+  Lu lu;
   const bool found = settles(16, [&](double) -> std::optional<IterationStep> {
     const double length = ray.c.norm();
     const auto J = jacobian_at(*e.walker, ray.U, e.root, e.piece, true);
     if (!J || !residual_at(e, ray.U, F)) return std::nullopt;
     A << J->dense, (e.N * (ray.c / length)).transpose();
     right << -F, rho - length;
-    const Lu lu(A);
+    lu.compute(A);
     Vector step = lu.solve(right);
     if (!step.allFinite()) return std::nullopt;
     const double moved = step.norm();
@@ -230,14 +231,15 @@ std::optional<RayPoint> ray_point(const ReducedEquation& e, const Vector& start,
     if ((ray.U - e.U0).norm() > 2 * rho || ray.c.norm() < near_share * rho) return std::nullopt;
     ray.noise = 0.5 * rounding_unit * e.scale * lu.largest_pivot() / lu.smallest_pivot() / rho;
     ray.sign = lu.sign();
-    ray.rate = rho * lu.solve(Vector(Vector::Unit(n + 1, n)));
     const bool small =
         F.lpNorm<Eigen::Infinity>() <=
         residual_bound(e.walker->problem, e.piece, e.walker->options.newton, e.scale);
     return IterationStep{moved, function_noise * rho, small ? near_share * told_apart * rho : 0};
   });
+  if (!found) return std::nullopt;
+  ray.rate = rho * lu.solve(Vector(Vector::Unit(n + 1, n)));
   if (!ray.rate.allFinite()) ray.rate.resize(0);
-  return found ? std::optional(ray) : std::nullopt;
+  return ray;
 }
 
 std::optional<Vector> quadratic_direction(const ReducedEquation& e, const Vector& start,
