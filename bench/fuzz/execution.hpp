@@ -17,7 +17,8 @@ enum class Mode {
 /// CPU seconds after which a run to its end is a long one: it is sent SIGINT, and must end at once with what it has.
 inline constexpr double long_run = 240;
 
-/// Exit code of a program that a signal has ended. Where it comes in the middle of a long step the process ends at once.
+/// Exit code of a program that a signal has ended. Where it comes in the middle of a long step the process ends at
+/// once.
 inline constexpr int ended_by_signal = 130;
 
 struct Outcome {

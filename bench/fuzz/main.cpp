@@ -1,12 +1,12 @@
-// Fuzzing of the whole program: mutants of all case files of the library are given to `check` and `run`, in processes of
-// their own, so that whatever a mutant does is seen, kept and stepped over.
+// Fuzzing of the whole program: mutants of all case files of the library are given to `check` and `run`, in processes
+// of their own, so that whatever a mutant does is seen, kept and stepped over.
 //
 //     springfold_fuzz check|run|uncapped [--corpus folder] [--work folder] [--seed s] [--count n] [--seconds t]
 //         [--jobs j] [--only i]
 //
-// Mutant i of a seed is always the same one. The work folder remembers how far each mode and seed has come: the next call
-// goes on there, up to `count` executions in all. Exit code 1 if anything was found, now or before. What is found lies
-// in findings/: the case file, the name of the file that it comes from, and what was said. A finding is
+// Mutant i of a seed is always the same one. The work folder remembers how far each mode and seed has come: the next
+// call goes on there, up to `count` executions in all. Exit code 1 if anything was found, now or before. What is found
+// lies in findings/: the case file, the name of the file that it comes from, and what was said. A finding is
 //
 //     a crash or a report of a sanitizer    an exit code that is not documented, "internal error" among them
 //     no end: after 300 s of CPU time (`run` 60 s), or ten times as many seconds, though SIGINT came before

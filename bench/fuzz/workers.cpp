@@ -28,8 +28,8 @@ using Clock = std::chrono::steady_clock;
 /// Executions of one process; a call that is broken off repeats them.
 std::uint64_t batch_of(Mode mode) { return mode == Mode::check ? 100 : mode == Mode::run ? 20 : 4; }
 
-/// CPU seconds after which a mutant has no end. On a machine that is busy with something else they last longer; what waits
-/// without working has `patience` times as many seconds.
+/// CPU seconds after which a mutant has no end. On a machine that is busy with something else they last longer; what
+/// waits without working has `patience` times as many seconds.
 double limit_of(Mode mode) { return mode == Mode::run ? 60 : 300; }
 constexpr double patience = 10;
 

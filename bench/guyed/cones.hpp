@@ -37,14 +37,14 @@ struct Truth {
   std::vector<Matrix> pieces{};  ///< stiffness without load, of the pieces that have room
   Matrix load{};
   bool rests = false;  ///< some cable is just at rest
-  /// Unstable modes under the load P: 0 if the energy is lowest here; otherwise the least number of all pieces that have
-  /// room, and at least 1.
+  /// Unstable modes under the load P: 0 if the energy is lowest here; otherwise the least number of all pieces that
+  /// have room, and at least 1.
   int index(double P) const;
 };
 
 /// Each piece is a choice of the resting cables that act: K_piece - P load on the cone of those w that stretch them and
-/// no other. Half-branches are generalised eigenvectors that lie in the cone of their piece. As the energy has continuous
-/// slopes, its least quotient with the load's form is one of them: the state is stable below the first.
+/// no other. Half-branches are generalised eigenvectors that lie in the cone of their piece. As the energy has
+/// continuous slopes, its least quotient with the load's form is one of them: the state is stable below the first.
 /// @param at_rest  cables stretched or slack by no more than this part of their length are taken as just at rest
 Truth truth(const Structure& structure, double at_rest);
 

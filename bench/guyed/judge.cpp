@@ -124,8 +124,9 @@ struct Judge {
     return std::abs(branch.load - P) <= place * draw.to;
   }
 
-  /// Takes what an event tells from its group: all of it, or what leaves at just this load. Loads may be nearer than events are
-  /// placed: an event tells of them as many as it has ways, and the others are told by the next one, or missed.
+  /// Takes what an event tells from its group: all of it, or what leaves at just this load. Loads may be nearer than
+  /// events are placed: an event tells of them as many as it has ways, and the others are told by the next one, or
+  /// missed.
   void compare(Group& group, double P, const std::string& label) {
     const std::vector<Vector> found = directions(label);
     const bool all = found.size() == group.size();

@@ -22,8 +22,8 @@ struct Verdict {
 };
 
 /// Loads at which branches leave the upright state, how many and in which directions, the number of unstable modes in
-/// every row of that state, and nothing else there. Cables stretched or slack by less than `told_as_resting` may be told
-/// as such or as just at rest, all of them in one way.
+/// every row of that state, and nothing else there. Cables stretched or slack by less than `told_as_resting` may be
+/// told as such or as just at rest, all of them in one way.
 Verdict judge(const Draw& draw, const analysis::StudyResult& result);
 
 }  // namespace springfold::guyed

@@ -4,8 +4,9 @@
 //     guyed [N] [seed] [--check] [--threads n] [--named file] [--draw i] [--verbose] [--case file]
 //           [--space-frames]
 //
-// Draw i of a seed is always the same problem. --named: the draws of a file instead of N of a seed. README.md says what is drawn and what is judged. With --check the exit
-// code is 1 if anything is wrong, or more than one draw in a hundred is unresolved.
+// Draw i of a seed is always the same problem. --named: the draws of a file instead of N of a seed. README.md says what
+// is drawn and what is judged. With --check the exit code is 1 if anything is wrong, or more than one draw in a hundred
+// is unresolved.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -68,7 +69,8 @@ void print_truth(const Draw& draw) {
   }
 }
 
-/// Lines "seed draw   # what it showed"; "frame in space" before the #: a draw of --space-frames. @throws std::runtime_error with the line that cannot be read
+/// Lines "seed draw # what it showed"; "frame in space" before the #: a draw of --space-frames. @throws
+/// std::runtime_error with the line that cannot be read
 std::vector<DrawName> read_names(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read");

@@ -30,8 +30,8 @@ struct Bare {
 /// @param hinges_give  with torsional springs in its hinges; otherwise nothing but cables holds it
 Bare random_bare(bool hinges_give, Random& random);
 
-/// One or two platforms in space, each on three equal legs that stand above each other. A platform sways in two directions
-/// and turns about the vertical; its tilt is of second order, as the legs sink unequally where it turns.
+/// One or two platforms in space, each on three equal legs that stand above each other. A platform sways in two
+/// directions and turns about the vertical; its tilt is of second order, as the legs sink unequally where it turns.
 Bare random_space_frame(bool hinges_give, Random& random);
 
 struct Attached {

@@ -29,8 +29,8 @@ bool is_unresolved_before(const continuation::Curve& curve, double s) {
   });
 }
 
-/// Does the curve say of the stretch around this place that lambda stands still or that it is unresolved? Nothing is told of
-/// the index there.
+/// Does the curve say of the stretch around this place that lambda stands still or that it is unresolved? Nothing is
+/// told of the index there.
 bool is_said_to_be_flat(const continuation::Curve& curve, double s) {
   return std::any_of(curve.hits.begin(), curve.hits.end(), [s](const continuation::Hit& hit) {
     const bool stretch =

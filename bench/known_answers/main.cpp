@@ -100,8 +100,8 @@ double slope_at(const Embedded& problem, const Vector& q, double lambda) {
   return tangent.tail(1)[0] / problem.base_point(tangent.head(q.size()))[0];
 }
 
-/// What the rounding of dF/dq, a few units in the last place of its norm, means for dlambda/dz; and what it is seen to make of
-/// it where it is zero, at the answers, since entries are sums of larger terms.
+/// What the rounding of dF/dq, a few units in the last place of its norm, means for dlambda/dz; and what it is seen to
+/// make of it where it is zero, at the answers, since entries are sums of larger terms.
 double slope_error(const Embedded& problem, const Draw& draw) {
   constexpr double step = 1e-6;
   const Vector q = problem.embed(draw.z_start);

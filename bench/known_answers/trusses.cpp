@@ -96,8 +96,8 @@ void add_axis(Draw& draw, Index axis, double stiffness, const Lengths& lengths, 
   limit_unknown(draw, axis, -end, end);
   const double L_fold = std::cbrt(L0);
   draw.size = 2 * std::max({end, std::abs(load(std::sqrt(L_fold * L_fold - 1))), -load(end)});
-  // Beside points that nearly coincide rounding alone moves a point off the axis, by some 1e-7 and more: as far as the point
-  // of the axis satisfies the equations under its load as well as a traced one has to.
+  // Beside points that nearly coincide rounding alone moves a point off the axis, by some 1e-7 and more: as far as the
+  // point of the axis satisfies the equations under its load as well as a traced one has to.
   draw.on_curve = [=](const Vector& z, double lambda) {
     return z.head(axis).norm() < 1e-6 ||
            std::abs(load(z[axis]) - lambda) <= continuation::residual_level;

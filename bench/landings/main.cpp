@@ -4,8 +4,8 @@
 //
 //     build/release/bench/landings [jumps] [mechanisms] [seed] [only]
 //
-// So many jumps of so many mechanisms, the same number of each: 100 of 20 if nothing is given. `only`: the one mechanism
-// that is looked at, by the number that is printed.
+// So many jumps of so many mechanisms, the same number of each: 100 of 20 if nothing is given. `only`: the one
+// mechanism that is looked at, by the number that is printed.
 #include <algorithm>
 #include <boost/numeric/odeint.hpp>
 #include <cstdio>
@@ -173,8 +173,9 @@ void compare_all(const bench::Draw& draw, Tally& tally, int most) {
 }  // namespace
 }  // namespace springfold::analysis
 
-/// Mechanisms are drawn until as many as are wanted give their share of the jumps. All that are drawn are compared; those
-/// with fewer jumps are counted apart, and do not decide the exit code: it is 0 if all jumps that were asked for agree.
+/// Mechanisms are drawn until as many as are wanted give their share of the jumps. All that are drawn are compared;
+/// those with fewer jumps are counted apart, and do not decide the exit code: it is 0 if all jumps that were asked for
+/// agree.
 int main(int argc, char** argv) {
   using namespace springfold;
   const auto number = [&](int i, int otherwise) {

@@ -1,7 +1,7 @@
-// How much of the curves of case files is verified: verified_arcs CASE.toml ... (continuation/verification.hpp).
-// One line per curve below 95 %, then the mean and the least share of all curves, and what the test costs, as a multiple of the
-// time without it. Curves of structured systems, which are not tested, are listed apart; curves of one point have no arcs.
-// Exit code 1 where the mean is below 95 % or a curve below 80 %.
+// How much of the curves of case files is verified: verified_arcs CASE.toml ... (continuation/verification.hpp). One
+// line per curve below 95 %, then the mean and the least share of all curves, and what the test costs, as a multiple of
+// the time without it. Curves of structured systems, which are not tested, are listed apart; curves of one point have
+// no arcs. Exit code 1 where the mean is below 95 % or a curve below 80 %.
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -66,8 +66,8 @@ Continued continued(const Arrivals& arrivals, const model::Mechanism& mechanism,
                     const ParameterFamily* family);
 
 /// The later study for other values of the parameters, the whole history being what it is with these.
-/// @param arrivals  asked for every member's values but that of the parameter which is lambda: along a path that does not
-///                  move the start
+/// @param arrivals  asked for every member's values but that of the parameter which is lambda: along a path that does
+///                  not move the start
 std::shared_ptr<const CaseFamily> after(std::shared_ptr<const Arrivals> arrivals,
                                         std::shared_ptr<const CaseFamily> cases,
                                         const Study& study);

@@ -9,8 +9,8 @@
 
 namespace springfold::analysis {
 
-/// Asks the observer of a study after every step and, in between, several times a second. Once it said no, it is asked no
-/// more, and the answer stays.
+/// Asks the observer of a study after every step and, in between, several times a second. Once it said no, it is asked
+/// no more, and the answer stays.
 class Asking {
  public:
   /// @param observer  may be empty; must outlive this

@@ -15,8 +15,8 @@ namespace {
 
 using continuation::CurvePoint;
 
-/// States that are joined by saddles, lowest saddles first. State 0 stands for all that lies outside: ways lead there, and
-/// none back.
+/// States that are joined by saddles, lowest saddles first. State 0 stands for all that lies outside: ways lead there,
+/// and none back.
 class Joined {
  public:
   explicit Joined(std::size_t states) : group_(states + 1), leads_out_(states + 1, false) {

@@ -63,7 +63,8 @@ continuation::StateFunction force_rate_of(const CaseCurves& curves, const CurveP
                  });
 }
 
-/// The rate of the column whose extremum the point is. Its curve may turn back in lambda: the tangent's sense is the one there.
+/// The rate of the column whose extremum the point is. Its curve may turn back in lambda: the tangent's sense is the
+/// one there.
 continuation::StateFunction column_rate_of(const CaseCurves& curves, const CurvePoint& at,
                                            const std::string& column) {
   return rate_of(curves, at.piece, at.tangent,

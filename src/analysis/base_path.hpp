@@ -58,7 +58,8 @@ struct CurvesWithPath {
 CurvesWithPath curves_with_path(const Study& study, std::size_t parameter, bool forward_only,
                                 const Observer& observer);
 
-/// What is zero at a marked value, or at the extremum of a column, as a function of states on a piece. Empty: no such column.
+/// What is zero at a marked value, or at the extremum of a column, as a function of states on a piece. Empty: no such
+/// column.
 continuation::StateFunction marked_value_on(const CaseCurves& curves, const Member& member,
                                             const SpecialPoint& point, const Piece& piece);
 
@@ -68,8 +69,8 @@ std::optional<continuation::CriticalStart> critical_start(const CaseCurves& curv
                                                           const SpecialPoint& point,
                                                           std::string& why);
 
-/// The same for critical curves, on which of several springs that switch at once another one may be the first on each side:
-/// one start for each of them, where the parameter parts them. Empty: `why`.
+/// The same for critical curves, on which of several springs that switch at once another one may be the first on each
+/// side: one start for each of them, where the parameter parts them. Empty: `why`.
 std::vector<continuation::CriticalStart> critical_starts(const CaseCurves& curves,
                                                          const Member& member,
                                                          const SpecialPoint& point,

@@ -10,8 +10,9 @@
 
 namespace springfold::analysis {
 
-/// Relative distances at which an answer is traced again. What is born there is so near to another point, a limit point to
-/// the corner behind it, that a path may not tell them apart: the load between them falls with the square of the distance.
+/// Relative distances at which an answer is traced again. What is born there is so near to another point, a limit point
+/// to the corner behind it, that a path may not tell them apart: the load between them falls with the square of the
+/// distance.
 inline constexpr std::array<double, 3> distances_beside{1e-6, 1e-5, 1e-4};
 inline constexpr double nearest_beside = distances_beside.front();
 

@@ -43,9 +43,9 @@ struct RowMaking {
   const Asking* asking = nullptr;  ///< nullptr: all rows are wanted
 };
 
-/// Makes the rows of a branch that has its start_row. Interrupted, it takes out the entries, and moves the start_row: special
-/// points, the ends, the start and the accepted points beside them have a row in any case, the other accepted points if they
-/// take a moment, points between them as far as they were done and as many as are soon written.
+/// Makes the rows of a branch that has its start_row. Interrupted, it takes out the entries, and moves the start_row:
+/// special points, the ends, the start and the accepted points beside them have a row in any case, the other accepted
+/// points if they take a moment, points between them as far as they were done and as many as are soon written.
 /// @returns whether every entry has its row
 bool add_rows(const RowMaking& making, std::vector<Entry>& entries, Branch& branch);
 

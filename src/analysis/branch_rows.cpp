@@ -23,8 +23,8 @@ using continuation::Hit;
 using continuation::HitKind;
 using continuation::StopReason;
 
-/// Does the force turn back at a switching although it is regular on both sides? A rate that is nothing beside that on the
-/// other side, at the end of a dead band, has no sign.
+/// Does the force turn back at a switching although it is regular on both sides? A rate that is nothing beside that on
+/// the other side, at the end of a dead band, has no sign.
 bool turns_back(const Event& event, const std::vector<QuantityDefinition>& quantities) {
   constexpr double rounding = 1e-12;
   for (std::size_t q = 0; q < quantities.size(); ++q) {
@@ -157,7 +157,8 @@ void refuse_contradictions(const std::vector<Entry>& entries, const Evaluator& e
   }
 }
 
-/// The end at which the rows begin, in this order. Far points: those nearest to the quarters of the way, and the other end.
+/// The end at which the rows begin, in this order. Far points: those nearest to the quarters of the way, and the other
+/// end.
 template <class Iterator>
 EndOfCurve end_of_curve(Iterator first, Iterator last) {
   const double begin = first->point.s, way = std::prev(last)->point.s - begin;

@@ -43,8 +43,8 @@ struct BranchRows {
   std::vector<int> junctions{};  ///< per event: the junction at which it is, or -1
 };
 
-/// Rows from the backward end through the start to the forward end, special points as rows of their
-/// own. Interrupted, it keeps those of the special points and of the steps, and of the others as many as are soon written.
+/// Rows from the backward end through the start to the forward end, special points as rows of their own. Interrupted,
+/// it keeps those of the special points and of the steps, and of the others as many as are soon written.
 /// @param asking  whether the rows are still wanted; nullptr: they are
 BranchRows join(BranchSource source, const Evaluator& evaluator,
                 const std::vector<QuantityDefinition>& quantities, const PathProblem& problem,
@@ -68,13 +68,13 @@ EventKind kind_of(const continuation::Hit& hit);
 /// @param follows_branches  the study does already: nobody is told to ask for it
 Stop stop_of(const continuation::Curve& curve, bool follows_branches = false);
 
-/// Why a trace could not go on, if the closures or the springs say so; otherwise what it was given. What the engine took
-/// it for is in the step log.
+/// Why a trace could not go on, if the closures or the springs say so; otherwise what it was given. What the engine
+/// took it for is in the step log.
 Stop explained(Stop stop, const EndOfCurve& at, const continuation::Curve& curve,
                const PathProblem& problem);
 
-/// Ends the curve where it would go on through an infinite force. The chains' wrenches are no part of the metric, so that a
-/// curve in the coordinates may lead past a dead centre: what comes behind belongs to forces of the other sign.
+/// Ends the curve where it would go on through an infinite force. The chains' wrenches are no part of the metric, so
+/// that a curve in the coordinates may lead past a dead centre: what comes behind belongs to forces of the other sign.
 /// @param between  further points of the curve
 void end_at_reach(continuation::Curve& curve, std::vector<continuation::CurvePoint>& between,
                   Stop& stop, const PathProblem& problem);

@@ -63,8 +63,9 @@ class Writer {
   }
 
  private:
-  /// The two curves that leave an ordinary start become one branch, and so do the first two that leave a start that is a
-  /// branch point in opposite directions: a branch passes through it as it does anywhere else. Every other curve is its own.
+  /// The two curves that leave an ordinary start become one branch, and so do the first two that leave a start that is
+  /// a branch point in opposite directions: a branch passes through it as it does anywhere else. Every other curve is
+  /// its own.
   void number_branches() {
     const std::size_t count = diagram_.branches.size();
     number_.assign(count, 0);

@@ -233,8 +233,8 @@ CaseCurves::Neighbours CaseCurves::neighbours(double mu) const {
   return beside;
 }
 
-/// The neighbour whose start the one at mu belongs to: the nearest one. Where those on both sides are different ones, that on
-/// the side of the first member: starts are followed away from it as far as they exist.
+/// The neighbour whose start the one at mu belongs to: the nearest one. Where those on both sides are different ones,
+/// that on the side of the first member: starts are followed away from it as far as they exist.
 const Member& CaseCurves::nearest(double mu) const {
   const auto [inward, outward] = neighbours(mu);
   const bool is_outward = outward != nullptr && outward->sheet == inward->sheet &&

@@ -54,8 +54,8 @@ Study as_curve(Study study);
 /// Of differences in mu.
 inline constexpr double step_of_family = 0x1p-9;
 
-/// Members of the grid of differences are as far apart. Those within it of mu on both sides enclose mu: whether det J keeps its
-/// sign along the starts is asked at them.
+/// Members of the grid of differences are as far apart. Those within it of mu on both sides enclose mu: whether det J
+/// keeps its sign along the starts is asked at them.
 inline constexpr double grid_step = 4 * step_of_family;
 
 /// Members share the scales of the first one, the case's own. Starts of the others are found from the nearest

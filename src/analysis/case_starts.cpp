@@ -28,7 +28,8 @@ bool CaseCurves::keeps_commands(const Study& study) const {
   return !study_.critical.tied && study.start.solve == StartSolve::actuators;
 }
 
-/// Under a load, or where a parameter of the case is driven, the start enters the equations as the origin of the pose alone.
+/// Under a load, or where a parameter of the case is driven, the start enters the equations as the origin of the pose
+/// alone.
 bool CaseCurves::counts_from_one_origin(const Study& study) {
   return study.control == ControlMode::load || study.control == ControlMode::parameter;
 }
@@ -47,7 +48,8 @@ bool CaseCurves::solve(Member& member, const statics::StartProblem& problem) con
   return member.report.found;
 }
 
-/// As the case with this value begins, whatever the neighbours are. Commands that are not tied are those of the first member.
+/// As the case with this value begins, whatever the neighbours are. Commands that are not tied are those of the first
+/// member.
 bool CaseCurves::solve_by_itself(Member& member) const {
   statics::StartProblem problem =
       start_problem(member.setup, member.study.body, start_beside(member.study));
@@ -133,9 +135,9 @@ bool CaseCurves::walk_to(Member& member, const Member& near) const {
   return false;
 }
 
-/// The start that belongs to the neighbour's. Behind a start that vanishes it is that of the neighbour on the other side, or the
-/// member begins as the case with this value does; and where that finds nothing, at whatever start is found from the
-/// neighbour's. A neutral start does not follow its neighbour, which solves its equations as well.
+/// The start that belongs to the neighbour's. Behind a start that vanishes it is that of the neighbour on the other
+/// side, or the member begins as the case with this value does; and where that finds nothing, at whatever start is
+/// found from the neighbour's. A neutral start does not follow its neighbour, which solves its equations as well.
 bool CaseCurves::solve_near(Member& member, const Member& near) const {
   if (starts_move_freely() && solve_by_itself(member)) {
     member.sheet = near.sheet;

@@ -137,7 +137,8 @@ std::vector<ChainState> states_of_chains(const PathProblem& problem,
 
 namespace {
 
-/// Below which share of what it is far away a singular value has fallen, is at its end, and how much a force has grown there.
+/// Below which share of what it is far away a singular value has fallen, is at its end, and how much a force has grown
+/// there.
 constexpr double fallen = 1e-2, at_end = 1e-3, more_force = 100;
 
 /// What every chain has far along the curve: the largest singular value, the middle wrench.
@@ -165,8 +166,9 @@ double whole_wrench(const std::vector<ChainState>& states) {
   return std::sqrt(square);
 }
 
-/// A wrench that balances forces f across a direction v in which a singular value falls to zero is f . v over that value,
-/// and what stays bounded: from point to point it grows as the inverse, but for a share of the order of what is left.
+/// A wrench that balances forces f across a direction v in which a singular value falls to zero is f . v over that
+/// value, and what stays bounded: from point to point it grows as the inverse, but for a share of the order of what is
+/// left.
 bool forces_become_infinite(const ChainState& before, const ChainState& end) {
   const double growth = std::log(end.wrench / before.wrench),
                fall = std::log(before.smallest / end.smallest);
@@ -186,7 +188,8 @@ void judge(const ChainState& far, const ChainState& before, const ChainState& en
   found.is_end_of_reach |= has_grown(far, end) || forces_become_infinite(before, end);
 }
 
-/// The joints of no chain are stretched, but all of them together hardly move what is driven: a crank at its dead centre.
+/// The joints of no chain are stretched, but all of them together hardly move what is driven: a crank at its dead
+/// centre.
 std::optional<StretchedChains> stopped_drive(const PathProblem& problem, const EndOfCurve& curve,
                                              const std::vector<ChainState>& states,
                                              const std::vector<ChainState>& far) {

@@ -23,19 +23,19 @@ inline constexpr double look_beside = 1e-2;
 /// A direction that is nothing special to the closures.
 Vector any_direction(Index size);
 
-/// The closures as equations for everything but lambda are dependent at the point and beside it, so wherever the mechanism
-/// goes: they ask more of the joints than these can give.
+/// The closures as equations for everything but lambda are dependent at the point and beside it, so wherever the
+/// mechanism goes: they ask more of the joints than these can give.
 bool closures_always_depend(const PathProblem& problem, const continuation::CurvePoint& point);
 
-/// The closures as equations for everything that moves on the path, lambda included, have a lower rank
-/// here than on both sides along the tangent (without one: beside it): a kinematic singularity. A part of the wrenches is then
-/// not determined by statics, and equilibria with all its values form a line that no branch follows.
+/// The closures as equations for everything that moves on the path, lambda included, have a lower rank here than on
+/// both sides along the tangent (without one: beside it): a kinematic singularity. A part of the wrenches is then not
+/// determined by statics, and equilibria with all its values form a line that no branch follows.
 /// @returns what it is, in words; nothing where the rank is that of the surroundings
 std::optional<std::string> kinematic_singularity(const PathProblem& problem,
                                                  const continuation::CurvePoint& point);
 
-/// The end of a curve, and what it is compared with. Both ends may be special, as the two dead centres of a crank are: of
-/// each measure the largest value at the far points counts, of forces the middle one.
+/// The end of a curve, and what it is compared with. Both ends may be special, as the two dead centres of a crank are:
+/// of each measure the largest value at the far points counts, of forces the middle one.
 struct EndOfCurve {
   const continuation::CurvePoint& end;
   const continuation::CurvePoint& before;  ///< the last point that is another one
@@ -49,9 +49,9 @@ struct EndOfCurve {
 std::optional<std::string> nears_kinematic_singularity(const PathProblem& problem,
                                                        const EndOfCurve& curve);
 
-/// Chains whose joints hardly move their end in some direction at the end of a curve: the smallest singular value of their
-/// own closure has fallen below a hundredth of what it is far along the curve. Legs that are stretched out. Where there is none, the
-/// same of all closures together with what is driven held: a crank at its dead centre.
+/// Chains whose joints hardly move their end in some direction at the end of a curve: the smallest singular value of
+/// their own closure has fallen below a hundredth of what it is far along the curve. Legs that are stretched out. Where
+/// there is none, the same of all closures together with what is driven held: a crank at its dead centre.
 struct StretchedChains {
   std::string text{};  ///< so in words
   bool is_end_of_reach =

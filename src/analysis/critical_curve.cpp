@@ -44,7 +44,8 @@ FollowedCurve limit_points_through(const CaseCurves& curves, const Study& study,
 
 /// Pieces of a critical curve beyond each of its ends.
 constexpr int most_pieces_beyond = 40;
-/// They begin this far, of the parameter, behind the place where two of them meet, which is located to a thousandth of it.
+/// They begin this far, of the parameter, behind the place where two of them meet, which is located to a thousandth of
+/// it.
 constexpr double share_beside = 1e-6;
 /// As degeneracies are located.
 constexpr double same_meeting = share_beside / 1000;
@@ -96,8 +97,8 @@ void end_at_last_reversal(CriticalCurve& curve) {
   std::erase_if(curve.points, [&](const CriticalPoint& p) { return p.s > s; });
 }
 
-/// Limit points go on beyond another spring's threshold: as corners at it, as long as lambda turns back there, and from where
-/// it no longer does as limit points of the piece behind. Marked values go on as the same on the piece behind.
+/// Limit points go on beyond another spring's threshold: as corners at it, as long as lambda turns back there, and from
+/// where it no longer does as limit points of the piece behind. Marked values go on as the same on the piece behind.
 class Beyond {
  public:
   using ValueOn = std::function<continuation::StateFunction(const Piece&)>;
@@ -141,8 +142,8 @@ class Beyond {
            std::abs(a.lambda - b.lambda) <= same_meeting && std::abs(a.mu - b.mu) <= same_meeting;
   }
 
-  /// What may follow; nothing where the curve ends for another reason. Behind a threshold where the stiffness does not change
-  /// the limit point is one of the next piece.
+  /// What may follow; nothing where the curve ends for another reason. Behind a threshold where the stiffness does not
+  /// change the limit point is one of the next piece.
   std::vector<continuation::CriticalStart> starts_behind(const FollowedCurve& last) const {
     const CriticalCurve& curve = last.growing;
     if (curve.stop != continuation::StopReason::event || curve.hits.empty()) return {};

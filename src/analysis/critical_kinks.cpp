@@ -73,8 +73,8 @@ class Follower {
         observer_{observer},
         further_{further} {}
 
-  /// Steps cross kinks that are weak, or crawl before them: at accepted points it is asked on which piece the start is there, and
-  /// as far ahead as differences reach.
+  /// Steps cross kinks that are weak, or crawl before them: at accepted points it is asked on which piece the start is
+  /// there, and as far ahead as differences reach.
   Stretch to_kink(const CriticalStart& from, bool growing) const {
     const bool watches = curves_.start_enters_equations() && !from.piece.empty();
     if (watches)
@@ -101,8 +101,9 @@ class Follower {
     return found;
   }
 
-  /// From a start at which the curve itself has a kink, and nothing leaves along its tangent: an extremum of a law with a kink
-  /// in its slope lies just there. A little farther on the curve is found again, if its points lie in one direction from there.
+  /// From a start at which the curve itself has a kink, and nothing leaves along its tangent: an extremum of a law with
+  /// a kink in its slope lies just there. A little farther on the curve is found again, if its points lie in one
+  /// direction from there.
   std::optional<Stretch> beside(const CriticalStart& from, bool growing) const {
     constexpr double wider[] = {1, 4, 16}, twice = 2, least = 1.5, most = 2.5;
     const auto point = polish_critical(curves_.family(), from);
@@ -164,8 +165,8 @@ class Follower {
     return !here.empty() && here.size() == there.size() && here != there;
   }
 
-  /// A start so near to a kink that differences reach across it, whichever way it leaves: it is the stretch up to the kink, or
-  /// stands for the kink itself.
+  /// A start so near to a kink that differences reach across it, whichever way it leaves: it is the stretch up to the
+  /// kink, or stands for the kink itself.
   std::optional<Stretch> beside_kink_at(const CriticalStart& from, double sense) const {
     const bool ahead = differ(from.mu, from.mu + sense * beside_kink);
     if (!ahead && !differ(from.mu, from.mu - sense * beside_kink)) return std::nullopt;

@@ -1,4 +1,5 @@
-// Critical curves across values of the parameter at which a spring switches at the start of the path itself. Private to analysis.
+// Critical curves across values of the parameter at which a spring switches at the start of the path itself. Private to
+// analysis.
 #pragma once
 
 #include <functional>
@@ -15,8 +16,8 @@ namespace springfold::analysis {
 std::optional<std::pair<double, std::string>> switching_start(const CaseCurves& curves, double mu,
                                                               double beyond);
 
-/// follow_critical(). Where what a start fixes (commands, held forces) bends with the parameter since a spring switches at the
-/// start, the curve has a kink there: it is followed up to it, and on from it, as one curve.
+/// follow_critical(). Where what a start fixes (commands, held forces) bends with the parameter since a spring switches
+/// at the start, the curve has a kink there: it is followed up to it, and on from it, as one curve.
 continuation::CriticalCurve follow_over_kinks(
     const CaseCurves& curves, const continuation::CriticalStart& start, bool growing,
     const std::vector<continuation::CriticalEvent>& events,

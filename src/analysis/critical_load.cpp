@@ -86,8 +86,8 @@ CriticalLoad critical_load(const CommandSetup& setup, const CommandedState& stat
     return {undefined, "the node is no ordinary point of its curve"};
   const std::vector<continuation::Event> events{
       {"limit", [](const CurvePoint& p) { return p.lambda - 1; }, continuation::EventAction::stop}};
-  // Special points before a kink are told as they are met, kinks and what is unresolved stand in the curve alone: there the
-  // number of unstable modes ends it.
+  // Special points before a kink are told as they are met, kinks and what is unresolved stand in the curve alone: there
+  // the number of unstable modes ends it.
   const auto is_stable = [&](const CurvePoint& p) {
     return !p.negative || *p.negative <= problem.closures();
   };

@@ -178,7 +178,8 @@ std::vector<Quantity> critical_quantities(const CaseCurves& curves) {
   return columns;
 }
 
-/// Marked values and extrema of columns are ordinary points of their path: where a spring switches at one, nothing else happens.
+/// Marked values and extrema of columns are ordinary points of their path: where a spring switches at one, nothing else
+/// happens.
 bool is_marked(EventKind of) { return of == EventKind::user_value || of == EventKind::extremum; }
 
 /// "spring rail.x switches here".

@@ -36,7 +36,8 @@ FollowedCurve follow_both_ways(const CaseCurves& curves, const Study& study,
 /// A curve that ends at the load of the start of the path, in another state, says that.
 void say_start_or_its_load(const CaseCurves& curves, continuation::CriticalCurve& curve);
 
-/// A curve that breaks off just before a spring switches at the start of the path, or where a length comes to zero, says so.
+/// A curve that breaks off just before a spring switches at the start of the path, or where a length comes to zero,
+/// says so.
 /// @param growing  was the parameter growing at first?
 void say_why_it_stops(const CaseCurves& curves, bool growing, continuation::CriticalCurve& curve);
 

@@ -20,7 +20,8 @@ bool is_degenerate(const PathProblem& problem, const continuation::CurvePoint& p
     count_negative(problem, moved);
     return moved.negative != point.negative;
   };
-  // A residual that grows with the way, or with a power of it: where it is one of rounding no other state is farther away.
+  // A residual that grows with the way, or with a power of it: where it is one of rounding no other state is farther
+  // away.
   for (double way = farthest; way > nearest; way /= 2)
     if (is_other(way) || is_other(-way)) return true;
   return false;

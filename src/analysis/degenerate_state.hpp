@@ -7,8 +7,9 @@
 namespace springfold::analysis {
 
 /// Is the state a limit or branch point as far as rounding lets it be told? A state is found to a residual of rounding;
-/// where the load is a limit load it may lie a root of rounding beside the limit point, on either side. It is degenerate if
-/// states beside it in its weakest direction, whose residual is one of rounding too, have another number of unstable modes.
+/// where the load is a limit load it may lie a root of rounding beside the limit point, on either side. It is
+/// degenerate if states beside it in its weakest direction, whose residual is one of rounding too, have another number
+/// of unstable modes.
 /// @param point  in equilibrium, with its count of negative eigenvalues; without one it is degenerate
 bool is_degenerate(const PathProblem& problem, const continuation::CurvePoint& point);
 

@@ -142,9 +142,9 @@ class Walk {
 
   enum class Place { slope, saddle, level };
 
-  /// Where the step can gain nothing that rounding does not hide, and the state is in no pit: either a saddle is so near that
-  /// it was met head on; rounding alone would choose the side, and who asked leaves it to both. Or nothing leads on, as
-  /// on a level floor: beside a ridge of any order the gain along what falls grows from step to step.
+  /// Where the step can gain nothing that rounding does not hide, and the state is in no pit: either a saddle is so
+  /// near that it was met head on; rounding alone would choose the side, and who asked leaves it to both. Or nothing
+  /// leads on, as on a level floor: beside a ridge of any order the gain along what falls grows from step to step.
   Place place_at(const Ground& at, const Modes& modes, const Vector& step, double energy) {
     const auto before = std::exchange(gain_on_ridge_, std::nullopt);
     if (modes.curvatures[0] > 0 || -at.slope.dot(step) > rounding(energy) ||
@@ -160,8 +160,8 @@ class Walk {
     return before && gain <= *before ? Place::level : Place::slope;
   }
 
-  /// Slopes that are rounding may be those of a point of inflection, as at a limit point: a little way off along the softest
-  /// modes the energy falls clearly. Goes there.
+  /// Slopes that are rounding may be those of a point of inflection, as at a limit point: a little way off along the
+  /// softest modes the energy falls clearly. Goes there.
   bool falls_aside(const Ground& at, const Modes& modes, double& energy) {
     const Index soft = std::max<Index>(1, (modes.curvatures.array() <= modes.floor).count());
     for (Index i = 0; i < soft; ++i)

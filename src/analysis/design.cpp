@@ -142,7 +142,8 @@ class Design {
     constexpr double rounding_change = 1e-12;  // of a parameter's unit
     if (found.status != DesignStatus::met) return false;
     Vector changes = found.changes;
-    // What a jump needs is told by its distance from it, and what a parameter needs that is said to be at its bound by the bound.
+    // What a jump needs is told by its distance from it, and what a parameter needs that is said to be at its bound by
+    // the bound.
     for (Index i = 0; i < changes.size(); ++i) {
       const bool at_bound = found.bounds[static_cast<std::size_t>(i)] != BoundState::free;
       const double nothing = found.jumps || at_bound ? nearest_beside : rounding_change;
@@ -201,8 +202,8 @@ class Design {
       report_.requirements[i] = merged(report_.requirements[i], *inside, i);
   }
 
-  /// A path that begins unstable has no first critical load, and is reached by no load from its start: what is wanted of
-  /// it is met in words only. Where limit points merge at the start itself its stability on the limit is rounding.
+  /// A path that begins unstable has no first critical load, and is reached by no load from its start: what is wanted
+  /// of it is met in words only. Where limit points merge at the start itself its stability on the limit is rounding.
   void doubt_unstable_start(const FoundDesign& found, bool is_birth) {
     if (!search_.requirements().needs_path()) return;
     const Vector inside =

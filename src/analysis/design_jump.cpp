@@ -11,10 +11,11 @@ namespace {
 
 /// What falls like a root falls by the root of a gap: what is missed by so many times that beyond the gap jumps.
 constexpr double by_far = 10;
-/// Designs next to a jump cannot always be judged, where points merge on them: it is told across a gap no wider than this.
+/// Designs next to a jump cannot always be judged, where points merge on them: it is told across a gap no wider than
+/// this.
 constexpr double widest_gap = 1e-6;
-/// Neighbours of a place, as parts of the change: first, and last, where rates of the third order add a millionth to the
-/// normal.
+/// Neighbours of a place, as parts of the change: first, and last, where rates of the third order add a millionth to
+/// the normal.
 constexpr double first_beside = 0x1p-6, last_beside = 0x1p-10;
 /// Neighbours are located to this part of the square of their distance: it is the error of the curvature.
 constexpr double part_of_square = 0x1p-10;
@@ -147,8 +148,8 @@ std::optional<LocalBoundary> BoundarySearch::fitted(const Vector& normal) const 
   return local;
 }
 
-/// The design next to `x` that meets all requirements: what lies on a bound stays there, and so do linear requirements on
-/// their limits.
+/// The design next to `x` that meets all requirements: what lies on a bound stays there, and so do linear requirements
+/// on their limits.
 std::optional<Vector> BoundarySearch::restored(const Vector& x, const Assessment& here,
                                                double width, double reach) const {
   const Vector moved = x - end_.changes;

@@ -21,8 +21,8 @@ inline bool are_alike(const Vector& a, const Vector& b) {
 struct JumpProblem {
   Vector low{}, high{};  ///< bounds
   bool is_sum = false;   ///< small is the sum of the sizes; otherwise the norm
-  /// Some of the requirements, all if `only` is empty, in the way in which they hold or come nearest to it; rates are those
-  /// by u. Nothing where they cannot be judged.
+  /// Some of the requirements, all if `only` is empty, in the way in which they hold or come nearest to it; rates are
+  /// those by u. Nothing where they cannot be judged.
   std::function<std::optional<Assessment>(const Vector& u, const std::vector<std::size_t>& only)>
       judge{};
   std::function<bool()> stopped{};
@@ -39,13 +39,14 @@ struct JumpEnd {
   Vector inwards{};                    ///< a direction that leads into the requirements
   bool jumps = false;                  ///< next to it a requirement is missed by far
   std::vector<std::size_t> jumping{};  ///< which ones; empty: designs there cannot be judged
-  /// Slope of a function that is negative where the requirements that jump hold and zero on the boundary; empty: not told.
+  /// Slope of a function that is negative where the requirements that jump hold and zero on the boundary; empty: not
+  /// told.
   Vector slope{};
   bool is_known = false;  ///< the search came to a known end, and stopped
 };
 
-/// Where requirements jump no derivative leads to the place: it is bracketed on the straight way to where the change were
-/// least if there were no jump, which is the case itself unless other requirements keep from it.
+/// Where requirements jump no derivative leads to the place: it is bracketed on the straight way to where the change
+/// were least if there were no jump, which is the case itself unless other requirements keep from it.
 /// @param changes  of a design that meets the requirements, as the case itself does not
 JumpEnd drawn_back(const JumpProblem& problem, const Vector& changes);
 

@@ -10,8 +10,8 @@
 namespace springfold::analysis {
 namespace {
 
-/// How far beside a design its modes are looked at, in the sizes of the parameters: rates are wrong by as much of their own
-/// change, and modes are that far apart.
+/// How far beside a design its modes are looked at, in the sizes of the parameters: rates are wrong by as much of their
+/// own change, and modes are that far apart.
 constexpr double step_aside = 0x1p-10;
 
 /// Branch points, and those of the pieces beside springs that rest: one after the other on one branch.

@@ -11,9 +11,9 @@ namespace springfold::analysis {
 /// The first unwanted point of a path, and the branch points behind it.
 struct FirstModes {
   const SpecialPoint* first = nullptr;  ///< of the path; nullptr: there is none
-  /// The quantity that is required at them, one per mode, not falling; empty: it is not defined at the first one. The least
-  /// load of several modes has an edge where two of them come together, and the best design often lies on it: one inequality
-  /// for each is smooth there.
+  /// The quantity that is required at them, one per mode, not falling; empty: it is not defined at the first one. The
+  /// least load of several modes has an edge where two of them come together, and the best design often lies on it: one
+  /// inequality for each is smooth there.
   std::vector<Measure> modes{};
 };
 
@@ -23,8 +23,8 @@ inline constexpr std::size_t modes_together = 3;
 /// What counts as unwanted for a requirement.
 CriticalPointSettings settings_of(const CriticalRequirement& wanted);
 
-/// Where modes of one point are parted by a parameter each has a rate of its own, which the point itself does not tell: they
-/// are those of a design beside this one, where the modes are apart.
+/// Where modes of one point are parted by a parameter each has a rate of its own, which the point itself does not tell:
+/// they are those of a design beside this one, where the modes are apart.
 /// @param values  of the design's parameters, whose path it is
 FirstModes first_modes(const DesignCase& of, const Vector& values, const DesignPath& path,
                        const CriticalRequirement& wanted, const Observer& observer);

@@ -41,8 +41,8 @@ std::vector<Vector> peaks(const RangeNodes& range, const Vector& values) {
   return all;
 }
 
-/// A start that is unstable itself has lost its stability before the path begins. No parameter is known to mend it by its rate:
-/// the search comes to stable ones from elsewhere.
+/// A start that is unstable itself has lost its stability before the path begins. No parameter is known to mend it by
+/// its rate: the search comes to stable ones from elsewhere.
 bool is_lost_at_start(const DesignPath& path, const CriticalRequirement& wanted) {
   if (wanted.unwanted != Unwanted::loss_of_stability) return false;
   const auto modes = unstable_at_start(path.base(), settings_of(wanted));
@@ -153,8 +153,8 @@ std::optional<Assessment> Requirements::assess(const Vector& values, const std::
   return result;
 }
 
-/// Inequalities for every requirement: the climb, where it is wanted, and the modes of the first unwanted point that it does
-/// not rule out. What does not occur is far from its limit.
+/// Inequalities for every requirement: the climb, where it is wanted, and the modes of the first unwanted point that it
+/// does not rule out. What does not occur is far from its limit.
 bool Requirements::add_critical(const DesignPath& path, const Vector& values,
                                 const std::vector<Way>& ways, const Observer& observer,
                                 Sheet& sheet) const {

@@ -210,8 +210,8 @@ bool DesignSearch::is_better(const Candidate& a, const Candidate& b) const {
   return a_meets ? size_of(a.changes) < size_of(b.changes) : misses_less(a, b);
 }
 
-/// A miss of what is wanted as it is worded, a load that is too low, comes before that of the other way to meet it, no critical
-/// point at all: their measures are not of one kind.
+/// A miss of what is wanted as it is worded, a load that is too low, comes before that of the other way to meet it, no
+/// critical point at all: their measures are not of one kind.
 bool DesignSearch::misses_less(const Candidate& a, const Candidate& b) const {
   const auto other_ways = [](const Candidate& c, const std::vector<Way>& first) {
     std::size_t count = 0;
@@ -228,8 +228,8 @@ bool DesignSearch::is_same(const Candidate& a, const Candidate& b) const {
   return a.ways == b.ways && are_alike(a.changes, b.changes);
 }
 
-/// Those that few before them are better than. What comes later changes nothing for the ones before: more starts never lead
-/// to a worse answer.
+/// Those that few before them are better than. What comes later changes nothing for the ones before: more starts never
+/// lead to a worse answer.
 std::vector<const DesignSearch::Candidate*> DesignSearch::promising(
     const std::vector<Candidate>& list) const {
   std::vector<const Candidate*> apart, chosen;
@@ -244,8 +244,8 @@ std::vector<const DesignSearch::Candidate*> DesignSearch::promising(
   return chosen;
 }
 
-/// What is a jump in one way may be none in another: with the way in which the place leads nearest to a minimum, and with
-/// the first one of equal ones.
+/// What is a jump in one way may be none in another: with the way in which the place leads nearest to a minimum, and
+/// with the first one of equal ones.
 FoundDesign DesignSearch::smoothest(FoundDesign design) {
   conditions(design);
   FoundDesign best;

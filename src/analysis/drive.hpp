@@ -38,8 +38,8 @@ struct Driven {
   std::optional<Vector> beyond{};     ///< a state behind that; none: the force never turned
 };
 
-/// Drives a minimum outward, everything else following at rest, until the energy drives on by itself. Where what follows
-/// snaps on the way, the drive goes on from there.
+/// Drives a minimum outward, everything else following at rest, until the energy drives on by itself. Where what
+/// follows snaps on the way, the drive goes on from there.
 Driven drive(const Landscape& landscape, const RestState& from, const Vector& along,
              const DriveLimits& limits);
 

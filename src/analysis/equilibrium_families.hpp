@@ -15,9 +15,9 @@ struct EquilibriumFamily {
   std::vector<std::size_t> others{};  ///< further ones that lie on the same line
 };
 
-/// From every singular equilibrium the line along its null vector is walked, both ways: where each point of it satisfies all
-/// equations to the tolerance, it is a family, and the equilibria that it meets are members. At a limit point or branch point
-/// no point beside satisfies them.
+/// From every singular equilibrium the line along its null vector is walked, both ways: where each point of it
+/// satisfies all equations to the tolerance, it is a family, and the equilibria that it meets are members. At a limit
+/// point or branch point no point beside satisfies them.
 /// @param singular  numbers of those to look at, in the order in which they may stand for a family
 /// @param goes_on   asked at every step: is the rest still wanted?
 std::vector<EquilibriumFamily> equilibrium_families(const PathProblem& problem,

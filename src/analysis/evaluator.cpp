@@ -63,8 +63,8 @@ void Evaluator::put_state(const continuation::CurvePoint& point, const Turns* tu
   problem_.put_inputs(point.lambda, state.inputs);
 }
 
-/// Under dead load index_force is what the curve itself counts, which also knows its neighbourhood: beside a branch point
-/// rounding decides what the matrix of one point shows.
+/// Under dead load index_force is what the curve itself counts, which also knows its neighbourhood: beside a branch
+/// point rounding decides what the matrix of one point shows.
 bool Evaluator::is_index_of_curve(Kind kind, const continuation::CurvePoint& point) const {
   return kind == Kind::index_force && control_ == ControlMode::load && point.negative;
 }

@@ -49,8 +49,9 @@ bool is_on_piece(const PathProblem& problem, const CurvePoint& point) {
 
 }  // namespace
 
-/// The way along the tangent is as long as the column is smooth: springs may switch nearby, so shorter ones follow until
-/// two agree, and the best pair says what is left open. Values come from the point's own piece, at its edge from one side.
+/// The way along the tangent is as long as the column is smooth: springs may switch nearby, so shorter ones follow
+/// until two agree, and the best pair says what is left open. Values come from the point's own piece, at its edge from
+/// one side.
 RoundedRate Evaluator::rate_by_differences(const QuantityDefinition& q,
                                            const CurvePoint& point) const {
   constexpr std::array ways{1e-2, 2e-3, 4e-4, 8e-5};

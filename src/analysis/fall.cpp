@@ -64,12 +64,13 @@ struct Leaving {
   bool is_flat = false;  ///< no force above rounding
 };
 
-/// The nearest force above rounding tells whether the state is left. Where it turns back before a push of the usual size, a
-/// stable state lies nearer than that, and the push ends before it.
+/// The nearest force above rounding tells whether the state is left. Where it turns back before a push of the usual
+/// size, a stable state lies nearer than that, and the push ends before it.
 Leaving leave_along(const Landscape& landscape, const Vector& critical, const Vector& along,
                     double noise) {
   constexpr double least_push = push_size / 1024;
-  // The critical state is off by as much as its load: nearer than a push of the usual size only what is far clear counts.
+  // The critical state is off by as much as its load: nearer than a push of the usual size only what is far clear
+  // counts.
   constexpr double far_clear = 100;
   Leaving outward;
   for (double a = least_push; a < largest_push; a *= 2) {

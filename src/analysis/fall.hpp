@@ -49,9 +49,9 @@ struct Fall {
 /// Height of the lowest saddle from which a way down leads to a minimum; infinite where there is none.
 double lowest_barrier(std::size_t minimum, const Fall& fall, StateBook& book);
 
-/// The minimum that a motion in the part that was entered cannot leave any more: the way down from where it is ends there,
-/// and what it has of energy in all is below every saddle beside. Where one minimum is all that the part holds, any
-/// energy is.
+/// The minimum that a motion in the part that was entered cannot leave any more: the way down from where it is ends
+/// there, and what it has of energy in all is below every saddle beside. Where one minimum is all that the part holds,
+/// any energy is.
 std::optional<RestState> caught_by(StateBook& book, const Fall& fall, const Vector& x,
                                    double energy);
 

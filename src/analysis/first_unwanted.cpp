@@ -12,8 +12,8 @@ namespace springfold::analysis {
 
 namespace {
 
-/// Does this column turn back there, as its rows on the path on both sides show? Where branches meet too, the point is called
-/// after them.
+/// Does this column turn back there, as its rows on the path on both sides show? Where branches meet too, the point is
+/// called after them.
 bool turns_back(const Member& member, const BasePath& path, const SpecialPoint& point,
                 const char* column) {
   const std::vector<Sample>& rows = path.branch.samples;
@@ -81,8 +81,8 @@ FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& 
                 ": stability is lost before the path begins";
     return first;
   }
-  // What comes first is known where any point is met that is unwanted whatever lies behind it. Should the engine take that
-  // back, the path is traced to its end.
+  // What comes first is known where any point is met that is unwanted whatever lies behind it. Should the engine take
+  // that back, the path is traced to its end.
   const auto enough = [only_turns](const continuation::Hit& hit) {
     using continuation::HitKind;
     return hit.kind == HitKind::limit_point || hit.kind == HitKind::corner ||
@@ -148,8 +148,9 @@ namespace {
 /// The limit that ends a path before an unwanted point that lies just behind it; empty: no limit does.
 std::string limit_on_the_way(const Member& member, const BasePath& path,
                              const CriticalPointSettings& settings, const Observer& observer) {
-  // Where a path has just begun to end there it passes the limit by next to nothing: by what it moves within the bracket of
-  // the value from which on it does so, 1e-11 of a range. A path that goes another way does not come back for so little.
+  // Where a path has just begun to end there it passes the limit by next to nothing: by what it moves within the
+  // bracket of the value from which on it does so, 1e-11 of a range. A path that goes another way does not come back
+  // for so little.
   constexpr double a_little = 1e-5;
   if (path.forward.stop != continuation::StopReason::event) return {};
   Study wider = member.study;

@@ -16,13 +16,13 @@ struct FirstUnwanted {
   bool has_start = true;
 };
 
-/// Follows the curve from the start in the direction in which lambda grows. Where stability counts and the start has none,
-/// there is no first loss of it. @param member  nullptr: no start
+/// Follows the curve from the start in the direction in which lambda grows. Where stability counts and the start has
+/// none, there is no first loss of it. @param member nullptr: no start
 FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& settings,
                              const Observer& observer);
 
-/// Modes that are unstable at the start, held as the study's load is or under dead load, whichever counts; nothing where that
-/// is not known.
+/// Modes that are unstable at the start, held as the study's load is or under dead load, whichever counts; nothing
+/// where that is not known.
 std::optional<Index> unstable_at_start(const Member& member, const CriticalPointSettings& settings);
 
 /// The same on the path of a member, with the reason where it has no start.

@@ -35,8 +35,8 @@ struct FlowOptions {
   int most_steps = 20000;
   bool keep_way = false;
   std::function<bool()> goes_on{};  ///< asked now and then; false: the motion is given up
-  /// Asked now and then of a motion with masses that lasts: the state of rest that it cannot leave any more with the energy
-  /// that it has in all, if there is one.
+  /// Asked now and then of a motion with masses that lasts: the state of rest that it cannot leave any more with the
+  /// energy that it has in all, if there is one.
   std::function<std::optional<RestState>(const Vector& x, double energy)> caught_by{};
 };
 

@@ -71,8 +71,8 @@ std::optional<Balanced> balance(const Matrix& W, const Matrix& J, const Vector& 
   return result;
 }
 
-/// Rates of the closures' derivatives along directions of the moving unknowns, one matrix each: second derivatives of every
-/// closure, since the matrix is linear in the multipliers.
+/// Rates of the closures' derivatives along directions of the moving unknowns, one matrix each: second derivatives of
+/// every closure, since the matrix is linear in the multipliers.
 /// @param plain  that matrix without multipliers
 template <class... Directions>
 std::optional<std::vector<Matrix>> bends(const Landscape& landscape, const Vector& x,

@@ -27,8 +27,8 @@ bool is_met_at(const Hit& place, const std::vector<Hit>& hits, const Test& test)
 }
 
 /// Does the force stand still on a side of a switching? It then has no extremum there: where a contact with a power
-/// above 1 that carries alone lets go, the force's rate falls to zero and stays there. A point beside it may be too near
-/// to tell, two are not.
+/// above 1 that carries alone lets go, the force's rate falls to zero and stays there. A point beside it may be too
+/// near to tell, two are not.
 bool stands_still_beside(const Hit& place, const continuation::Curve& curve,
                          const Evaluator& evaluator) {
   const auto is_still = [&](const auto& first, const auto& last) {

@@ -6,7 +6,8 @@
 
 namespace springfold::analysis {
 
-/// Name of the engine's event where, the pose being held, the number of modes that dead loads would make unstable changes.
+/// Name of the engine's event where, the pose being held, the number of modes that dead loads would make unstable
+/// changes.
 inline constexpr const char* dead_load_change_name =
     "under the same loads, not held, another number of modes is unstable";
 
@@ -14,14 +15,14 @@ inline constexpr const char* dead_load_change_name =
 inline constexpr const char* driven_change_name =
     "the displacement along the load turns back: if it were driven, stability would change";
 
-/// The second of these as an event: the determinant of the equilibrium matrix with all bodies free is zero. @pre the problem
-/// is symmetric; the evaluator outlives the event
+/// The second of these as an event: the determinant of the equilibrium matrix with all bodies free is zero. @pre the
+/// problem is symmetric; the evaluator outlives the event
 continuation::Event dead_load_event(const Evaluator& evaluator);
 
 /// Where a curve crosses another one at its tip, force and lambda turn back at the branch point itself: it says so, and
-/// the extremum of the force is no point of its own. Neither is a change of stability under dead load where the
-/// force has its extremum, or where another special point lies. A switching on one side of which the force stands still is
-/// no extremum.
+/// the extremum of the force is no point of its own. Neither is a change of stability under dead load where the force
+/// has its extremum, or where another special point lies. A switching on one side of which the force stands still is no
+/// extremum.
 continuation::Curve with_merged_force_events(continuation::Curve curve, const Evaluator& evaluator);
 
 }  // namespace springfold::analysis

@@ -18,12 +18,12 @@ std::string trouble_at(const StudyResult& result, const std::string& at);
 /// @pre trouble_at(result, at).empty()
 NamedValues state_at(const StudyResult& result, const std::string& at);
 
-/// The label of the equilibrium of a search that is nearest to a state of a neighbouring value of a parameter: a search may number
-/// them otherwise there. Empty where another one is about as near.
+/// The label of the equilibrium of a search that is nearest to a state of a neighbouring value of a parameter: a search
+/// may number them otherwise there. Empty where another one is about as near.
 std::string label_near(const StudyResult& result, const NamedValues& state);
 
-/// What the study passed between its start and that point, as one word: kinds of special points and springs that act. Of
-/// neighbouring values of a parameter with different ones, the points do not belong to each other.
+/// What the study passed between its start and that point, as one word: kinds of special points and springs that act.
+/// Of neighbouring values of a parameter with different ones, the points do not belong to each other.
 std::string way_to(const StudyResult& result, const std::string& at);
 
 /// What acts in the state of the earlier study and not by itself in the later one, as constant loads.

@@ -56,8 +56,8 @@ bool PointLaws::enter(const CaseCurves& curves, double rate) {
   return !is_kept || enter_second_order(curves);
 }
 
-/// With e = m^2 in the laws of (o): where branches cross the load falls by C |m| about what the branch point would do, with
-/// both signs; the pitchfork's |m|^(4/3) comes behind a rate, where there is one.
+/// With e = m^2 in the laws of (o): where branches cross the load falls by C |m| about what the branch point would do,
+/// with both signs; the pitchfork's |m|^(4/3) comes behind a rate, where there is one.
 bool PointLaws::enter_second_order(const CaseCurves& curves) {
   const auto force = second_order_force(curves.family(), polished(curves, curves.base(), *point_));
   if (!force || force->lpNorm<Eigen::Infinity>() == 0) return true;

@@ -126,8 +126,8 @@ struct Approach {
 /// Solved points, each nearer to the zero of 1/w.
 Approach approach(const PathProblem& problem, const CurvePoint& earlier, const CurvePoint& last) {
   constexpr int most_points = 100;  // of which each leaves at most three quarters of the way
-  // Closures of chains that lie flat together have errors of rounding over their singular value, and with such wrenches the
-  // equilibrium one over its square: nearer points than this may not be found, but that there is a pole is certain.
+  // Closures of chains that lie flat together have errors of rounding over their singular value, and with such wrenches
+  // the equilibrium one over its square: nearer points than this may not be found, but that there is a pole is certain.
   constexpr double certain_growth = 1e2;
   // Of w times the way that is left from one point to the next: beside a pole it stays, at a finite peak it is lost.
   constexpr double same_inverse = 1.25;
@@ -159,8 +159,8 @@ void complete_point(const PathProblem& problem, const CurvePoint& earlier, Curve
     point.tangent = *std::move(tangent);
 }
 
-/// Does the way to the pole look as if nothing happened on it? Numbers of negative eigenvalues and the sense of lambda are those
-/// of its first point all along. Where rounding decides on them the curve is traced on.
+/// Does the way to the pole look as if nothing happened on it? Numbers of negative eigenvalues and the sense of lambda
+/// are those of its first point all along. Where rounding decides on them the curve is traced on.
 bool goes_straight_on(const PathProblem& problem, std::vector<CurvePoint>& points) {
   const CurvePoint& first = points[1];
   for (std::size_t i = 1; i < points.size(); ++i) {

@@ -19,14 +19,14 @@ constexpr double much_steeper = 16;
 /// Over so many units of arc length, 160 of the longest default steps, before the unit is taken to be too small.
 constexpr double long_way = 16;
 
-/// Where x hardly moves up to the first critical load the unit comes from that, and everything else may be orders of magnitude
-/// away: on a trivial branch, and where the curve begins just beside a critical point. After a long way the unit grows by this
-/// factor, no farther than a finite range asks for.
+/// Where x hardly moves up to the first critical load the unit comes from that, and everything else may be orders of
+/// magnitude away: on a trivial branch, and where the curve begins just beside a critical point. After a long way the
+/// unit grows by this factor, no farther than a finite range asks for.
 constexpr double next_unit = 16;
 
-/// Along a curve that runs to infinite lambda at a finite x, as c / (x_0 - x)^p does, |dlambda/dx| grows like lambda to the power
-/// (p + 1) / p; along an exponential like lambda, along powers of x more slowly, and it stays where a member is merely stiff.
-/// Between p = 4 and the exponential nothing is claimed.
+/// Along a curve that runs to infinite lambda at a finite x, as c / (x_0 - x)^p does, |dlambda/dx| grows like lambda to
+/// the power (p + 1) / p; along an exponential like lambda, along powers of x more slowly, and it stays where a member
+/// is merely stiff. Between p = 4 and the exponential nothing is claimed.
 constexpr double power_at_infinity = 1.25;
 
 /// Of the unit of lambda, along such a curve: forces have then grown by some thousands, and nothing more happens.

@@ -8,11 +8,11 @@
 namespace springfold::analysis {
 
 /// Watches a curve while it is traced. The arc length measures lambda in a unit from the response at the start
-/// (settle_units); where a curve then hardens by orders of magnitude (a cable that becomes taut, a truss of slack members)
-/// lambda alone fills the arc length, and the curve would take a point for every tenth of a unit. A larger unit changes
-/// nothing where x responds: lengths are measured by x there. So the curve is begun again with one.
-/// Not without bounds: where x responds the rate of lambda must stay clear of rounding. And a curve may run to infinite lambda
-/// while x comes to rest (a chain that is pulled straight): no unit is large enough for that.
+/// (settle_units); where a curve then hardens by orders of magnitude (a cable that becomes taut, a truss of slack
+/// members) lambda alone fills the arc length, and the curve would take a point for every tenth of a unit. A larger
+/// unit changes nothing where x responds: lengths are measured by x there. So the curve is begun again with one. Not
+/// without bounds: where x responds the rate of lambda must stay clear of rounding. And a curve may run to infinite
+/// lambda while x comes to rest (a chain that is pulled straight): no unit is large enough for that.
 inline constexpr double largest_change_of_lambda_unit = 0x1p32;
 
 enum class Crawl {
@@ -58,7 +58,8 @@ class LambdaCrawl {
   /// Where a larger unit of lambda is needed, `factor` says which.
   Crawl sees(const continuation::CurvePoint& point);
 
-  /// Has lambda alone filled a long way, and the curve not become steeper? Its unit came from the first critical load then.
+  /// Has lambda alone filled a long way, and the curve not become steeper? Its unit came from the first critical load
+  /// then.
   bool goes_straight() const { return goes_straight_; }
 
   /// How many times larger the unit of lambda should be, a power of two; 1: the unit serves.

@@ -39,9 +39,9 @@ inline double settling_time(const std::vector<std::pair<double, double>>& taken,
   return taken.empty() ? 0 : taken.back().first;
 }
 
-/// Looks at a motion that lasts. Once it cannot leave a state of rest any more, all that it still has of energy above that
-/// state is going to be dissipated. Where that is little, nothing more is to be learned; where it would take more steps
-/// than are allowed until it is little, neither.
+/// Looks at a motion that lasts. Once it cannot leave a state of rest any more, all that it still has of energy above
+/// that state is going to be dissipated. Where that is little, nothing more is to be learned; where it would take more
+/// steps than are allowed until it is little, neither.
 class Lasting {
  public:
   explicit Lasting(const FlowOptions& options) : options_{options} {}

@@ -37,9 +37,9 @@ bool is_watched(const Study& study, const std::vector<QuantityDefinition>& quant
                      [&](const Mark& mark) { return rotates(mark.quantity); });
 }
 
-/// Points lie off the curve by as much as the residual's tolerance lets them, and so do the values of what is computed from
-/// them, in the mechanism's own units: values that differ by less are the same. lambda is solved for as well: along a family
-/// that lies at a limit it is what rounding leaves of it. What is given is exact.
+/// Points lie off the curve by as much as the residual's tolerance lets them, and so do the values of what is computed
+/// from them, in the mechanism's own units: values that differ by less are the same. lambda is solved for as well:
+/// along a family that lies at a limit it is what rounding leaves of it. What is given is exact.
 double rounding_of(const QuantityDefinition& quantity, double value) {
   const bool is_set = quantity.kind == QuantityDefinition::Kind::arc_length ||
                       quantity.kind == QuantityDefinition::Kind::command;
@@ -149,8 +149,8 @@ constexpr double beyond_limit = 1e-9;
 /// How far along its ray a curve is looked at to see which way it goes, in the metric.
 constexpr double short_way = 1e-6;
 
-/// Two values of a quantity in its unit that far apart on the short way differ by rounding alone: a curve that runs along
-/// its limit does not leave it.
+/// Two values of a quantity in its unit that far apart on the short way differ by rounding alone: a curve that runs
+/// along its limit does not leave it.
 double no_change(double value) {
   return std::numeric_limits<double>::epsilon() * std::abs(value) + short_way * tangent_rounding;
 }

@@ -19,8 +19,8 @@ constexpr double tenth = 0.1;
 
 constexpr const char* in_next_piece = "goes on in the next piece";
 
-/// Pieces are cut where their loads differ by `same_load`: as far from their meeting as they are slow to part. The difference
-/// of two smooth loads is a straight line there.
+/// Pieces are cut where their loads differ by `same_load`: as far from their meeting as they are slow to part. The
+/// difference of two smooth loads is a straight line there.
 void end_where_equal(const CaseCurves& curves, LoadPiece& last, LoadPiece& next, double room) {
   using Points = std::pair<std::optional<continuation::CriticalPoint>,
                            std::optional<continuation::CriticalPoint>>;

@@ -36,12 +36,13 @@ struct LoadPiece {
   Side falling{}, growing{};
 };
 
-/// Does this value of the parameter alone have the critical point, as where the parameter parts the modes of a multiple branch
-/// point or springs that switch at once, or makes an imperfect structure of a perfect one? Other points come to it from beside.
+/// Does this value of the parameter alone have the critical point, as where the parameter parts the modes of a multiple
+/// branch point or springs that switch at once, or makes an imperfect structure of a perfect one? Other points come to
+/// it from beside.
 bool stands_alone(const CaseCurves& curves, const Member& member, const SpecialPoint& point);
 
-/// Is this what comes first on a path, on a piece of such points that has the load `lambda` there? Nothing: it is unresolved, and
-/// may hide the point of the piece.
+/// Is this what comes first on a path, on a piece of such points that has the load `lambda` there? Nothing: it is
+/// unresolved, and may hide the point of the piece.
 /// @param alone  it may be of another kind than its neighbours
 std::optional<bool> is_of_piece(const SpecialPoint& first, EventKind of, bool alone, double lambda);
 std::string why_hidden(const SpecialPoint& first);
@@ -82,8 +83,8 @@ bool is_reached(const CaseCurves& curves, const std::vector<LoadPiece>& pieces, 
 /// What is no longer than ends are told apart, and goes on beside it, is no piece of its own.
 void leave_out_points(std::vector<LoadPiece>& pieces, double room);
 
-/// Where one piece meets the next one with the same load, the same point goes on, or the lesser one of two loads: both end
-/// where they are equal.
+/// Where one piece meets the next one with the same load, the same point goes on, or the lesser one of two loads: both
+/// end where they are equal.
 /// @param alone  values with a point of their own: no piece comes to them
 void say_what_goes_on(const CaseCurves& curves, const std::vector<double>& alone,
                       std::vector<LoadPiece>& pieces, double room);

@@ -32,8 +32,8 @@ std::vector<Loss> losses_of(const StudyResult& result,
     };
     for (std::size_t e = 0; e < branch.events.size(); ++e) {
       const Event& event = branch.events[e];
-      // A point in the first row ends the branch as one in the last row does. Where branches cross it is told once, on the
-      // branch that passes if that loses its stability there, otherwise on one that begins stable.
+      // A point in the first row ends the branch as one in the last row does. Where branches cross it is told once, on
+      // the branch that passes if that loses its stability there, otherwise on one that begins stable.
       const bool begins = event.row == 0;
       if (!may_lose_stability(event)) continue;
       const std::size_t last = event.row + (has_two_rows(branch, event) ? 1 : 0);

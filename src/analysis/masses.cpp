@@ -9,8 +9,8 @@ namespace springfold::analysis {
 
 namespace {
 
-/// Loads along z, in place of weights: point masses that turn as a body does, and its mass once more, with a minus, at its
-/// centre, where it is counted already.
+/// Loads along z, in place of weights: point masses that turn as a body does, and its mass once more, with a minus, at
+/// its centre, where it is counted already.
 void add_turning(double mass, const model::Mat3<double>& inertia, const model::Anchor& centre,
                  model::Mechanism& weighed) {
   if (inertia.isZero(0)) return;

@@ -29,8 +29,8 @@ const Part* part_of(std::string_view& problem, std::string_view kind,
   return &parts[number - 1];
 }
 
-/// Sentences of problems_in() begin with the number of the part in the mechanism, which a case may have written otherwise: a
-/// bar may be a spring between points. They are told with its name, by which results speak of it.
+/// Sentences of problems_in() begin with the number of the part in the mechanism, which a case may have written
+/// otherwise: a bar may be a spring between points. They are told with its name, by which results speak of it.
 std::string with_name(const model::Mechanism& mechanism, const std::string& problem) {
   std::string_view rest{problem};
   std::string name;
@@ -103,8 +103,8 @@ class RulesOverParameter {
   bool in_place_ = false;
 };
 
-/// The last value within the rules on the way from one that is to one that is not. Rules end at short numbers, mostly 0: such
-/// a one is taken before the one that halving finds.
+/// The last value within the rules on the way from one that is to one that is not. Rules end at short numbers, mostly
+/// 0: such a one is taken before the one that halving finds.
 double end_of_rules(RulesOverParameter& rules, double good, double bad) {
   constexpr double nearest = 0x1p-46;  // of the way
   constexpr int digits = 12;
@@ -123,7 +123,8 @@ double end_of_rules(RulesOverParameter& rules, double good, double bad) {
   return on_way && rules.broken(shortest).empty() ? shortest : good;
 }
 
-/// Towards one end: cut where that end breaks a rule, behind the outermost value that is within them. Empty: it is not cut.
+/// Towards one end: cut where that end breaks a rule, behind the outermost value that is within them. Empty: it is not
+/// cut.
 std::string cut_towards(RulesOverParameter& rules, double& end) {
   const double way = end - rules.own();
   std::string rule = rules.broken(end);

@@ -22,8 +22,8 @@ struct RuledRange {
   bool is_cut() const { return !below.empty() || !above.empty(); }
 };
 
-/// An end that breaks a rule is drawn back to behind the outermost value that does not, of some evenly between it and the
-/// case's own; rules that are broken only in between cut nothing.
+/// An end that breaks a rule is drawn back to behind the outermost value that does not, of some evenly between it and
+/// the case's own; rules that are broken only in between cut nothing.
 /// @param low, high  finite @param parameter  its number in `cases`
 RuledRange range_within_rules(const CaseFamily& cases, std::size_t parameter, double low,
                               double high);
@@ -31,8 +31,8 @@ RuledRange range_within_rules(const CaseFamily& cases, std::size_t parameter, do
 /// The first rule that the case breaks with this value; empty: none.
 std::string broken_rule_at(const CaseFamily& cases, std::size_t parameter, double value);
 
-/// "k = -1 to 0 is left out: the case may not be given there: " and the rule, for each end that is cut off. Low and high
-/// are those of the whole range.
+/// "k = -1 to 0 is left out: the case may not be given there: " and the rule, for each end that is cut off. Low and
+/// high are those of the whole range.
 std::vector<std::string> words_of_cut(const RuledRange& range, const std::string& parameter,
                                       double low, double high);
 

@@ -77,7 +77,8 @@ class PathProblem {
                    Vector& dF_dlambda) const;
   bool equations(const Vector& y, double lambda, const Piece& piece, Vector& F, Matrix& dF_dy,
                  Vector& dF_dlambda) const;
-  /// Exact second derivatives, as ProblemView has them; false where the statics doesn't know them, or rotations are free.
+  /// Exact second derivatives, as ProblemView has them; false where the statics doesn't know them, or rotations are
+  /// free.
   bool second_along(const Vector& y, double lambda, const Piece& piece, const Vector& w,
                     const Vector& V, Vector& value) const;
   /// Chains so long that their matrices are better not formed, or many members?

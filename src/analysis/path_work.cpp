@@ -109,8 +109,8 @@ std::optional<PathState> state_at_level(const PathProblem& problem, const PathSt
   if (!chord.is_a_way()) return from;
   const auto piece = piece_between(problem, from, to);
   if (!piece) return std::nullopt;
-  // Beside a limit load lambda hardly changes along the curve, and at constant lambda the state is hardly determined: the
-  // way along the chord determines it.
+  // Beside a limit load lambda hardly changes along the curve, and at constant lambda the state is hardly determined:
+  // the way along the chord determines it.
   const auto state_at = [&](double part) -> std::optional<PathState> {
     const auto solved = chord.at(part, *piece);
     return continuation::converged(solved) ? std::optional<PathState>({solved.x, solved.lambda})

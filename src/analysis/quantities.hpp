@@ -21,8 +21,8 @@ namespace springfold::analysis {
 /// Rounding of tangents, relative to what a rate is made of.
 inline constexpr double tangent_rounding = 64 * std::numeric_limits<double>::epsilon();
 
-/// Points lie off the curve by as much as the residual's tolerance lets them: forces are not told to less, nor their rates
-/// per unit of the arc length, where the mechanism's own size and stiffness are the units.
+/// Points lie off the curve by as much as the residual's tolerance lets them: forces are not told to less, nor their
+/// rates per unit of the arc length, where the mechanism's own size and stiffness are the units.
 inline constexpr double off_curve_rate = continuation::NewtonOptions{}.residual_tolerance;
 
 /// A rate along a curve, and what rounding may do to it.

@@ -86,10 +86,10 @@ class RowsBeside {
 
 /// Beside a critical point the eigenvalue that vanishes there is smaller than what rounding of the place makes of it.
 /// Rows that are nearer than the engine tells points apart have the counts of the first row beyond them on that side:
-/// counts change at special points only.
-/// Not so where springs rest: an eigenvalue of one piece passes zero anywhere if its motion leads out of the piece. There
-/// a row has the counts of its own pieces as soon as they are clear: a state that is off by e at a distance d from a
-/// special point, e d being the rounding, has eigenvalues of the size of d that are off by e.
+/// counts change at special points only. Not so where springs rest: an eigenvalue of one piece passes zero anywhere if
+/// its motion leads out of the piece. There a row has the counts of its own pieces as soon as they are clear: a state
+/// that is off by e at a distance d from a special point, e d being the rounding, has eigenvalues of the size of d that
+/// are off by e.
 /// @param critical  the rows of critical points
 /// @returns for every row the one whose count it has
 std::vector<std::size_t> counted_rows(const Branch& branch, const std::vector<bool>& critical) {

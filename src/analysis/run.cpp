@@ -214,7 +214,8 @@ bool has_unresolved(const StudyResult& result) {
 
 /// From the start, again and again until no other unit of lambda is asked for. Beside a critical load that is far below
 /// its range a curve bends sharply and becomes steep: in the larger unit that may be missed. Parts of lambda take more
-/// points, and digits of the works of jumps and cycles, so that they come second, and not at all where those are asked for.
+/// points, and digits of the works of jumps and cycles, so that they come second, and not at all where those are asked
+/// for.
 /// @param empty  what is known before
 StudyResult run_in_growing_units(const Begun& begun, InUnits units, const StudyResult& empty) {
   std::optional<InUnits> before_steep;

@@ -24,8 +24,8 @@ std::pair<double, double> reach_of(const CaseCurves& curves, const StudyResult& 
   return {low, high};
 }
 
-/// Rows beyond the rules, of a range that was asked for, are told where the range ends; a curve that does not come to that end
-/// has a doubt.
+/// Rows beyond the rules, of a range that was asked for, are told where the range ends; a curve that does not come to
+/// that end has a doubt.
 void doubt_rows_beyond_rules(const CaseCurves& curves, const CriticalPointSettings& asked,
                              StudyResult& result) {
   const RuledRange& rules = curves.rules();
@@ -38,7 +38,8 @@ void doubt_rows_beyond_rules(const CaseCurves& curves, const CriticalPointSettin
     result.doubts.push_back("the curve goes beyond what the case may be given with: " + text);
 }
 
-/// A threshold is a value that the case may be given with; first critical loads are told over all of the range that is asked for.
+/// A threshold is a value that the case may be given with; first critical loads are told over all of the range that is
+/// asked for.
 void run_over_range(CaseCurves& curves, const Study& study, std::size_t parameter,
                     const Observer& observer, StudyResult& result) {
   const CriticalPointSettings& asked = study.critical;

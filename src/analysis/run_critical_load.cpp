@@ -234,7 +234,8 @@ class LoadsOverParameter {
     cut(piece.start, side, side.end - sense * closest_bracket * width_);
   }
 
-  /// Does the point of the piece come first at this value? Nothing: what comes first there is unresolved and may hide it.
+  /// Does the point of the piece come first at this value? Nothing: what comes first there is unresolved and may hide
+  /// it.
   std::optional<bool> is_first(const LoadPiece& piece, const CriticalCurve& curve, double mu) {
     const FirstUnwanted& first = first_at(mu);
     if (!first.point) return false;
@@ -243,8 +244,8 @@ class LoadsOverParameter {
     return here ? is_of_piece(*first.point, piece.of, alone, here->lambda) : false;
   }
 
-  /// Does it come first just before a degeneracy of its curve between both values, and just behind not any more? Then it ends
-  /// there, and no bracket has to be halved beside it, where two points of the path are hard to tell apart.
+  /// Does it come first just before a degeneracy of its curve between both values, and just behind not any more? Then
+  /// it ends there, and no bracket has to be halved beside it, where two points of the path are hard to tell apart.
   bool ends_at_degeneracy(const LoadPiece& piece, Side& side, double good, double bad) {
     const double sense = bad > good ? 1 : -1, room = sense * at_degeneracy * width_;
     for (std::size_t i = 0; i < side.curve.hits.size(); ++i) {
@@ -313,8 +314,8 @@ class LoadsOverParameter {
     return true;
   }
 
-  /// Values at which what comes first stands alone belong to the pieces that come to it with its load. Where all is known
-  /// beside, and has another load, the value is a place of its own.
+  /// Values at which what comes first stands alone belong to the pieces that come to it with its load. Where all is
+  /// known beside, and has another load, the value is a place of its own.
   void tell_apart() {
     std::vector<double> own;
     for (const double mu : std::set<double>(alone_.begin(), alone_.end())) {

@@ -34,8 +34,9 @@ std::vector<std::string> parameters_of(const Study& study) {
 /// A worst combination is one of named parameters: all of the case have no common unit.
 bool has_worst(const Study& study) { return !study.critical.parameters.empty(); }
 
-/// A parameter whose value is 0 says nothing of its size, and the steps of differences are parts of that. Of several sizes
-/// the one is taken about which the rates of the load change least: larger ones bend, smaller ones are lost in rounding.
+/// A parameter whose value is 0 says nothing of its size, and the steps of differences are parts of that. Of several
+/// sizes the one is taken about which the rates of the load change least: larger ones bend, smaller ones are lost in
+/// rounding.
 std::unique_ptr<CaseCurves> curves_about_zero(const Study& study, std::size_t number,
                                               const CurvesWithPath& begun, std::size_t lambda) {
   constexpr double factor = 0x1p-3, smallest = 0x1p-18;

@@ -41,8 +41,8 @@ double within_range(const Study& study, const Setup& setup, double unit) {
   return power_of_two_near(range > 0 ? std::min(unit, range) : unit);
 }
 
-/// The unit of lambda that the response asks for, in that of the setup: of moderate size where a parameter stands at a large
-/// value, and no longer than the range that is asked for.
+/// The unit of lambda that the response asks for, in that of the setup: of moderate size where a parameter stands at a
+/// large value, and no longer than the range that is asked for.
 double lambda_unit(const Study& study, const Setup& setup, const CurvePoint& start, double unit) {
   constexpr double largest_lambda = 64;
   return within_range(study, setup, std::max(unit, std::abs(start.lambda) / largest_lambda));
@@ -149,8 +149,8 @@ void settle_units(const model::Mechanism& mechanism, const Study& study,
                   const ParameterFamily* family, statics::FirstEquilibrium& first, Setup& setup) {
   const Given given{mechanism, study, family};
   if (settle(given, first, setup)) return;
-  // Units that are off by the whole range of numbers hide what is regular: those of its ends may not. A spring hides below
-  // `poor`.
+  // Units that are off by the whole range of numbers hide what is regular: those of its ends may not. A spring hides
+  // below `poor`.
   const auto [softest, stiffest] = range_of_springs(mechanism, setup.scales.length);
   const Units before{setup.scales.force, {}};
   const auto settles_in = [&](double force) {

@@ -7,12 +7,12 @@
 
 namespace springfold::analysis {
 
-/// Lets a study begin at an equilibrium: pose and commands are counted from there, and a start that was held by a wrench
-/// stays held in the directions that the study leaves free.
+/// Lets a study begin at an equilibrium: pose and commands are counted from there, and a start that was held by a
+/// wrench stays held in the directions that the study leaves free.
 void begin_at(const Study& study, const statics::FirstEquilibrium& first, Setup& setup);
 
-/// The start of the study's curve. Where the residual is not at tolerance in the units at hand, a few Newton steps bring
-/// it there.
+/// The start of the study's curve. Where the residual is not at tolerance in the units at hand, a few Newton steps
+/// bring it there.
 continuation::CurvePoint start_point(const PathProblem& problem, const Setup& setup,
                                      const statics::FirstEquilibrium& first);
 
@@ -34,9 +34,9 @@ void enlarge_lambda_unit(const model::Mechanism& mechanism, const Study& study,
                          const ParameterFamily* family, double factor,
                          statics::FirstEquilibrium& first, Setup& setup);
 
-/// Where x stands still at the start its response says nothing, and the unit of lambda comes from the first critical load.
-/// The others may be orders of magnitude away: then the unit grows until a finite range is so many units long, or lambda is
-/// measured in parts of itself.
+/// Where x stands still at the start its response says nothing, and the unit of lambda comes from the first critical
+/// load. The others may be orders of magnitude away: then the unit grows until a finite range is so many units long, or
+/// lambda is measured in parts of itself.
 void reach_range(const model::Mechanism& mechanism, const Study& study,
                  const ParameterFamily* family, statics::FirstEquilibrium& first, Setup& setup);
 
@@ -47,7 +47,8 @@ inline constexpr double longest_straight_way = 64;
 double range_of_lambda(const Study& study, const Setup& setup);
 
 /// Where a curve goes straight along lambda, or becomes so many times steeper, and its range of lambda is so many times
-/// longer than the unit of its start serves, no unit may serve both: lambda is measured in parts of itself beyond that one.
+/// longer than the unit of its start serves, no unit may serve both: lambda is measured in parts of itself beyond that
+/// one.
 inline constexpr double long_beside_first_load = 0x1p8;
 
 /// Does such a range of lambda span orders of magnitude between what the unit serves and the limits?

@@ -15,9 +15,9 @@
 namespace springfold::analysis {
 namespace {
 
-/// Orthonormal basis of what is orthogonal to a direction, smooth in it: unknowns of neighbouring members of a family belong to
-/// each other. In the plane all around; in more dimensions, where there is none such, the reflection that takes the first axis
-/// to the direction's opposite, but for directions that all but are that opposite.
+/// Orthonormal basis of what is orthogonal to a direction, smooth in it: unknowns of neighbouring members of a family
+/// belong to each other. In the plane all around; in more dimensions, where there is none such, the reflection that
+/// takes the first axis to the direction's opposite, but for directions that all but are that opposite.
 Matrix smooth_basis_across(const Vector& direction) {
   constexpr double all_but = -0.9;  // cosine
   const Vector d = direction.normalized();

@@ -12,8 +12,8 @@ namespace {
 /// Step of the six-point differences, where rates are of size 1.
 constexpr double rate_step = 0x1p-9;
 
-/// Where starts beside this one do not belong to it, as beside a limit point, steps are so much shorter, down to the least:
-/// rounding costs as many digits.
+/// Where starts beside this one do not belong to it, as beside a limit point, steps are so much shorter, down to the
+/// least: rounding costs as many digits.
 constexpr double shorter = 0x1p-3, least_step = 0x1p-18;
 
 /// Relative difference of the slopes to both sides that steps of the least length leave of a smooth value.
@@ -34,7 +34,8 @@ void leave_out_kinks(const std::function<std::optional<Vector>(double)>& along, 
   }
 }
 
-/// Where starts beside this one are on another piece, what is counted from them has a kink: shorter steps do not reach it.
+/// Where starts beside this one are on another piece, what is counted from them has a kink: shorter steps do not reach
+/// it.
 std::optional<Vector> rates_along(const CaseCurves& curves, const Member& base, double mu,
                                   const ValuesAlong& values, double size) {
   const int sheet = base.sheet;

@@ -57,8 +57,8 @@ class Watcher {
     std::stable_sort(curve.hits.begin(), curve.hits.end(), is_before<Hit>);
   }
 
-  /// Counts beside a special point are those of the rows beside it: between two of them there must be one. It is solved to
-  /// rounding where that can be: beside singular points the tolerance leaves more than what lies between.
+  /// Counts beside a special point are those of the rows beside it: between two of them there must be one. It is solved
+  /// to rounding where that can be: beside singular points the tolerance leaves more than what lies between.
   void part_hits(Curve& curve) const {
     continuation::NewtonOptions finest = options_;
     finest.residual_tolerance = few_roundings;
@@ -98,8 +98,8 @@ class Watcher {
     return std::isnan(value) ? std::nullopt : std::optional{static_cast<int>(std::lround(value))};
   }
 
-  /// The curve's point on the plane across the chord at a part of the way, from the cubic through both ends. Nothing where the
-  /// point that is found has another direction: it is one of a branch that crosses.
+  /// The curve's point on the plane across the chord at a part of the way, from the cubic through both ends. Nothing
+  /// where the point that is found has another direction: it is one of a branch that crosses.
   std::optional<CurvePoint> point_at(const CurvePoint& a, const CurvePoint& b, double part,
                                      const continuation::NewtonOptions& options) const {
     Direction chord{b.x - a.x, b.lambda - a.lambda};
@@ -137,7 +137,8 @@ class Watcher {
     return point;
   }
 
-  /// Does the count change at the curve's own special points between the two, and nowhere else as far as it shows beside them?
+  /// Does the count change at the curve's own special points between the two, and nowhere else as far as it shows
+  /// beside them?
   bool is_at_hits(const CurvePoint& a, const CurvePoint& b, int from, int to,
                   const Curve& curve) const {
     const Direction chord{b.x - a.x, b.lambda - a.lambda};

@@ -54,7 +54,8 @@ std::vector<continuation::Event> events_through(const Following& t) {
   return events;
 }
 
-/// The next point of a curve: an ordinary one, or where the curve ends before the first of them; nullptr: it ends at the start.
+/// The next point of a curve: an ordinary one, or where the curve ends before the first of them; nullptr: it ends at
+/// the start.
 const CurvePoint* next_point(const Curve& curve) {
   if (curve.points.size() > 1) return &curve.points[1];
   return !curve.hits.empty() && curve.hits.back().point.s > 0 ? &curve.hits.back().point : nullptr;
@@ -89,7 +90,8 @@ CurvePoint turned_round(CurvePoint point) {
   return point;
 }
 
-/// The point of the backward curve at which the short curve begins, looking forward; nothing where it cannot be computed.
+/// The point of the backward curve at which the short curve begins, looking forward; nothing where it cannot be
+/// computed.
 std::optional<CurvePoint> point_before(const Following& t, const Curve& backward,
                                        continuation::TraceOptions options) {
   const CurvePoint& start = backward.points.front();
@@ -102,8 +104,8 @@ std::optional<CurvePoint> point_before(const Following& t, const Curve& backward
   return turned_round(way.points[1]);
 }
 
-/// How far from where it was located a special point that no curve meets may lie: rounding places flat ones no better than
-/// their interval.
+/// How far from where it was located a special point that no curve meets may lie: rounding places flat ones no better
+/// than their interval.
 double reach_of(const Hit& hit) {
   return std::max(same_as_start, std::min(hit.point.s - hit.s_before, hit.s_after - hit.point.s));
 }
@@ -162,8 +164,8 @@ const CurvePoint* first_with_sign(const Curve& curve) {
 }
 
 /// Turns of lambda at the start too close together to tell: whether it turns altogether is told by its rates where they
-/// have a sign again. Nothing where they have none, or where the eigenvalues are not told beside the start or say something
-/// else.
+/// have a sign again. Nothing where they have none, or where the eigenvalues are not told beside the start or say
+/// something else.
 std::optional<Hit> settled(Hit hit, const PathProblem& problem, const BranchSource& source) {
   const CurvePoint *const before = first_with_sign(source.backward), *const after = first_with_sign(
                                                                          source.forward);
@@ -187,8 +189,8 @@ bool is_told_beside(const Curve& curve, Index j) {
   });
 }
 
-/// The two ways of an ordinary start that lie in different pieces meet at the switching between them, however slowly its
-/// springs leave their thresholds: across a stiff member no step sees it, and values on it are rounding.
+/// The two ways of an ordinary start that lie in different pieces meet at the switching between them, however slowly
+/// its springs leave their thresholds: across a stiff member no step sees it, and values on it are rounding.
 std::optional<Hit> switching_between(const Following& t, const Curve& backward,
                                      const Curve& forward) {
   const CurvePoint &before = backward.points.front(), &after = forward.points.front();
@@ -249,8 +251,8 @@ void take_switches(const Hit& from, Hit& to) {
   take_place(to.leaving.front(), from.leaving.front().piece);
 }
 
-/// A switching at the start that no hit tells is added; one that is told is told of all of its springs, and of ways that lead on
-/// from the start itself.
+/// A switching at the start that no hit tells is added; one that is told is told of all of its springs, and of ways
+/// that lead on from the start itself.
 void complete_switching(const Following& t, const Curve& backward, const Curve& forward,
                         std::vector<Hit>& hits) {
   const auto is_switching = [](const Hit& hit) {
@@ -270,7 +272,8 @@ void complete_switching(const Following& t, const Curve& backward, const Curve& 
     take_switches(*hit, *told);
 }
 
-/// Where a spring switches so near to the start that no short curve leads through it, lambda may turn there though nothing tells.
+/// Where a spring switches so near to the start that no short curve leads through it, lambda may turn there though
+/// nothing tells.
 bool may_turn_unseen(const Curve& backward, const Curve& forward) {
   const auto tells = [](const Curve& curve) {
     return std::ranges::any_of(curve.hits, [](const Hit& hit) {

@@ -22,7 +22,8 @@ bool are_same(double a, double b) {
   return std::abs(a - b) <= same_energy * std::max({1.0, std::abs(a), std::abs(b)});
 }
 
-/// Two states of rest without stiffness at one height: places of one motion that nothing resists, as far as can be seen.
+/// Two states of rest without stiffness at one height: places of one motion that nothing resists, as far as can be
+/// seen.
 bool are_on_one_floor(const RestState& a, const RestState& b) {
   return !a.is_clear && !b.is_clear && are_same(a.energy, b.energy);
 }

@@ -37,8 +37,8 @@ class StateBook {
   const Landscape& landscape() const { return landscape_; }
   /// @returns its number, that of the same state if it is known
   std::size_t add(const RestState& state);
-  /// The first state of the book that is the same but for whole turns, of the same energy or not: itself, if loads do no
-  /// work in a whole turn. What is around one of them is around all.
+  /// The first state of the book that is the same but for whole turns, of the same energy or not: itself, if loads do
+  /// no work in a whole turn. What is around one of them is around all.
   std::size_t first_of_turns(std::size_t state) const { return first_of_turns_[state]; }
   bool are_turns(std::size_t a, std::size_t b) const {
     return first_of_turns_[a] == first_of_turns_[b];
@@ -76,8 +76,8 @@ class StateBook {
   /// @param met  the state that is left is the last one
   void leave(const std::vector<RestState>& met, WaysDown& ways);
   bool is_turned(const std::vector<RestState>& met, const RestState& state) const;
-  /// Whether uphill ways are to be taken from this minimum, and were not yet from enough of those that differ from it by
-  /// whole turns, or rest on the same floor.
+  /// Whether uphill ways are to be taken from this minimum, and were not yet from enough of those that differ from it
+  /// by whole turns, or rest on the same floor.
   bool may_climb(std::size_t minimum, const StateSearch& options);
 
   const Landscape& landscape_;

@@ -46,7 +46,8 @@ struct EndOfReach {
 };
 
 /// The end of the reach behind the first `count` points, where these lead to one.
-/// @param within      arc length in which the pole lies that makes itself felt: one farther on has nothing to do with it
+/// @param within      arc length in which the pole lies that makes itself felt: one farther on has nothing to do with
+///                    it
 /// @param unresolved  the point that could not be told, or nullptr
 std::optional<EndOfReach> reach_behind(const PathProblem& problem, const Curve& curve,
                                        std::size_t count, double within,

@@ -20,8 +20,8 @@ RelaxedWay relaxed_way(const Landscape& landscape, const Vector& from, const Vec
 /// The saddles with one unstable mode to which the highest places of the way lead, polished as all states of rest.
 std::vector<RestState> saddles_on(const Landscape& landscape, const RelaxedWay& way);
 
-/// Ways between minima that no known saddle joins, nearest ones first, until all are joined or no way helps; where there are
-/// few minima, between all pairs. Saddles and minima that are met go to the book.
+/// Ways between minima that no known saddle joins, nearest ones first, until all are joined or no way helps; where
+/// there are few minima, between all pairs. Saddles and minima that are met go to the book.
 void join_by_strings(StateBook& book);
 
 }  // namespace springfold::analysis

@@ -19,8 +19,8 @@ using continuation::Hit;
 /// Springs that switch at once move on together with a parameter where their rates differ by no more.
 constexpr double same_rate = 1e-8;
 
-/// Members so far beside, in steps of the family, show whether springs go on to rest: farther ones tell small changes from
-/// rounding, nearer ones lie on one side of what else happens beside.
+/// Members so far beside, in steps of the family, show whether springs go on to rest: farther ones tell small changes
+/// from rounding, nearer ones lie on one side of what else happens beside.
 constexpr std::array<double, 3> steps_beside{1, 0x1p-3, 0x1p-6};
 
 /// Switches that are no larger are zero, as the engine tells them.
@@ -41,8 +41,8 @@ continuation::NewtonResult point_beside(const PathProblem& problem, const CurveP
                                at.lambda + ds * at.tangent.dlambda, at.piece, at.tangent, {});
 }
 
-/// Are the switches zero at a point, and on the curve of its piece on both sides of it? Some way off: a curve that only touches
-/// a surface has left it there.
+/// Are the switches zero at a point, and on the curve of its piece on both sides of it? Some way off: a curve that only
+/// touches a surface has left it there.
 bool rest_along(const PathProblem& problem, const std::vector<Index>& switches,
                 const CurvePoint& at, double zero = zero_switch_there) {
   if (!are_zero(problem, switches, at.x, at.lambda, zero)) return false;
@@ -93,8 +93,8 @@ std::optional<Vector> singular_values(const PathProblem& problem, const Vector& 
   return jacobi_svd(linear.dF_dx).values;
 }
 
-/// How many eigenvalues of a piece vanish at a located point of the path? Beside stiff members all soft modes are small:
-/// those that vanish are small beside what they are some way off.
+/// How many eigenvalues of a piece vanish at a located point of the path? Beside stiff members all soft modes are
+/// small: those that vanish are small beside what they are some way off.
 int corank_of(const PathProblem& problem, const CurvePoint& at, const Piece& piece) {
   const auto here = singular_values(problem, at.x, at.lambda, piece);
   for (const double ds : {continuation::level_reach, -continuation::level_reach}) {

@@ -8,8 +8,8 @@ namespace springfold::analysis {
 /// What turns back at a corner at which the force does and lambda does not: its rate along the curve of either side.
 continuation::RateFunction force_turns(const CaseCurves& curves);
 
-/// One where one spring switches, or several that the parameter keeps together, all at once behind the point; otherwise one
-/// for each of them, with itself alone behind it: on either side of the parameter another one may be the first.
+/// One where one spring switches, or several that the parameter keeps together, all at once behind the point; otherwise
+/// one for each of them, with itself alone behind it: on either side of the parameter another one may be the first.
 std::vector<continuation::CriticalStart> starts_on_surfaces(const CaseCurves& curves,
                                                             const std::vector<Index>& switches,
                                                             continuation::CriticalStart start);
@@ -21,8 +21,8 @@ std::vector<continuation::CriticalStart> starts_at_switching(const CaseCurves& c
 
 std::string several_switch(const SpecialPoint& point);
 
-/// Do the springs of this special point rest, before it and behind it? Then none of them switches there: the eigenvalue of a
-/// piece vanishes.
+/// Do the springs of this special point rest, before it and behind it? Then none of them switches there: the eigenvalue
+/// of a piece vanishes.
 bool springs_rest(const Member& member, const SpecialPoint& point);
 
 /// The switches that are zero along the path before and behind a special point, though nothing of them happens there.
@@ -31,9 +31,9 @@ std::vector<Index> switches_at_rest(const Member& member, const SpecialPoint& po
 /// Where springs rest: the pieces in which half-branches leave, or the path's own where none does.
 std::vector<Piece> pieces_at_rest(const SpecialPoint& point);
 
-/// A point at which springs rest is a branch point of the piece whose half-branch leaves, or of the path's own piece where none
-/// does, as long as the parameter lets them rest. Several pieces count as one where the parameter moves them alike, as mirror
-/// images do. Nothing: `why`.
+/// A point at which springs rest is a branch point of the piece whose half-branch leaves, or of the path's own piece
+/// where none does, as long as the parameter lets them rest. Several pieces count as one where the parameter moves them
+/// alike, as mirror images do. Nothing: `why`.
 std::optional<continuation::CriticalStart> start_at_rest(const CaseCurves& curves,
                                                          const Member& member,
                                                          const SpecialPoint& point,

@@ -22,8 +22,8 @@ using continuation::CriticalCurve;
 using continuation::CriticalHit;
 using continuation::CriticalPoint;
 
-/// So many parts of a piece are looked at for values at which the path does not come to it, and how closely, in parts of it,
-/// the place where that begins is bracketed.
+/// So many parts of a piece are looked at for values at which the path does not come to it, and how closely, in parts
+/// of it, the place where that begins is bracketed.
 constexpr int values_between = 8;
 constexpr double closest_bracket = 1e-12;
 /// What lies as near on the curve, in parts of the range, decides.
@@ -178,8 +178,8 @@ class Threshold {
     return !at_range || clear;
   }
 
-  /// The point that is followed may leave the path from the start, as where branches cross: then nothing unwanted happens
-  /// from there on. The path is traced at values between, whose starts belong to that of the first one.
+  /// The point that is followed may leave the path from the start, as where branches cross: then nothing unwanted
+  /// happens from there on. The path is traced at values between, whose starts belong to that of the first one.
   /// @returns where, nothing if it happens at all of them
   std::optional<double> clear_before(double from, double to, bool at_end) {
     const std::string told = std::exchange(why_, {});

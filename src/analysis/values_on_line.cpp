@@ -27,8 +27,8 @@ void add_all(const Vector& more, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), more.begin(), more.end());
 }
 
-/// Numbers that the equations of a path on one piece are linear in, all that differ from member to member; commands are the
-/// last ones. Nothing where they are not linear in all that may differ.
+/// Numbers that the equations of a path on one piece are linear in, all that differ from member to member; commands are
+/// the last ones. Nothing where they are not linear in all that may differ.
 std::optional<Vector> linear_numbers(const Setup& setup, const statics::MovedPlaces& places) {
   const statics::System& system = setup.system;
   std::vector<double> numbers;
@@ -115,8 +115,8 @@ CaseCurves::Line CaseCurves::line_through(double first, double step) const {
 
 double CaseCurves::first_on_line(double mu) { return (std::floor(mu / grid_step) - 1) * grid_step; }
 
-/// Two of the four members are on each side of mu. Where the numbers that the equations are linear in lie on a line there,
-/// the equations do too, at any state: two members tell the derivative.
+/// Two of the four members are on each side of mu. Where the numbers that the equations are linear in lie on a line
+/// there, the equations do too, at any state: two members tell the derivative.
 std::optional<double> CaseCurves::line(double mu) const {
   constexpr std::size_t most = 4096;
   if (!pattern_) return std::nullopt;
@@ -143,8 +143,8 @@ void CaseCurves::look_for_line(double mu) const {
   if (starts_lie_on_lines_ && !is_of_grid(mu)) line(mu);
 }
 
-/// Commands and loads at starts are among the numbers on a line: between the members that tell it, whose starts are looked
-/// for, none is needed.
+/// Commands and loads at starts are among the numbers on a line: between the members that tell it, whose starts are
+/// looked for, none is needed.
 std::optional<statics::Inputs> CaseCurves::inputs_on_line(const Member& member) const {
   const bool may_be = counts_from_one_origin(member.study) && !is_of_grid(member.mu);
   const Line* line = may_be ? known_line(member.mu) : nullptr;

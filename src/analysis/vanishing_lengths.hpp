@@ -9,9 +9,9 @@
 
 namespace springfold::analysis {
 
-/// A spring or bar of length 0, two neighbouring points of a path or an angle that meet, a fold with a point on its edge:
-/// there a force or moment turns at once, and no curve leads on. Is `end`, where `curve` could not go on, about to meet
-/// such a place: has a length fallen below a hundredth of what it was along the curve, and does it still fall?
+/// A spring or bar of length 0, two neighbouring points of a path or an angle that meet, a fold with a point on its
+/// edge: there a force or moment turns at once, and no curve leads on. Is `end`, where `curve` could not go on, about
+/// to meet such a place: has a length fallen below a hundredth of what it was along the curve, and does it still fall?
 /// @returns so in words, with the spring's name and that length; nothing where there is none
 std::optional<std::string> vanishing_length(const PathProblem& problem,
                                             const continuation::Curve& curve,

@@ -7,8 +7,8 @@
 
 namespace springfold::analysis {
 
-/// A curve that begins on a limit and leads out of the range, slowly or after a bend, ends where it leaves: takes back the
-/// points beyond, if the observer stopped it there or it joined a branch there.
+/// A curve that begins on a limit and leads out of the range, slowly or after a bend, ends where it leaves: takes back
+/// the points beyond, if the observer stopped it there or it joined a branch there.
 void cut_to_range(const Study& study, const Evaluator& evaluator,
                   const std::vector<QuantityDefinition>& quantities, continuation::Curve& curve);
 

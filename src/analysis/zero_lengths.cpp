@@ -15,8 +15,8 @@ using continuation::Curve;
 using continuation::CurvePoint;
 using Vec3 = model::Vec3<double>;
 
-/// Sine of the angle below which two vectors lie on one line: far above the rounding of positions, far below the turn of a
-/// spring that a step leads past its other end.
+/// Sine of the angle below which two vectors lie on one line: far above the rounding of positions, far below the turn
+/// of a spring that a step leads past its other end.
 constexpr double on_one_line = 1e-9;
 
 using statics::PointShape;
@@ -27,8 +27,8 @@ struct Way {
   const char* place = "the length 0, where its force has no direction";
 };
 
-/// From point to point of a path; in space across a line to the point; the sides of an angle and in space across both; of a
-/// fold from the edge to both points. As many at every state.
+/// From point to point of a path; in space across a line to the point; the sides of an angle and in space across both;
+/// of a fold from the edge to both points. As many at every state.
 std::vector<Way> ways_of(const PointShape& shape, const std::vector<Vec3>& p) {
   constexpr const char* vertex = "its vertex, where the angle is not defined";
   constexpr const char* edge = "its edge, where the angle is not defined";

@@ -1,5 +1,5 @@
-// What `Ranks` asks of MPI. The calls are in a module that only the processes of mpirun load: to load MPI's own libraries
-// takes as long as to trace a curve.
+// What `Ranks` asks of MPI. The calls are in a module that only the processes of mpirun load: to load MPI's own
+// libraries takes as long as to trace a curve.
 #pragma once
 
 #include <string>

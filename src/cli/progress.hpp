@@ -22,8 +22,8 @@ class Progress {
   ~Progress() { clear(); }
 
   void begin(const std::string& what);
-  /// Points of a curve. How long it is nobody knows before: the time that is left follows from the runs of its study that
-  /// are done, or is bounded by the points that it may have.
+  /// Points of a curve. How long it is nobody knows before: the time that is left follows from the runs of its study
+  /// that are done, or is bounded by the points that it may have.
   /// @param most  points; 0: no bound is known
   void points(int count, int most = 0);
   /// Of the runs of a study so many are done. `begin_runs` before the first.

@@ -207,8 +207,8 @@ std::string interruption(int signal, const Case& the_case, const Results& result
          list_of("not drawn", missing.pictures);
 }
 
-/// How long results are written after a signal: with what follows it makes less than a second. Runs that took long to end
-/// leave a moment all the same, enough for all but very large tables.
+/// How long results are written after a signal: with what follows it makes less than a second. Runs that took long to
+/// end leave a moment all the same, enough for all but very large tables.
 std::function<bool()> end_of_writing(const Results& results, const Session& session) {
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::milliseconds after_signal{400}, at_least{150};

@@ -68,8 +68,8 @@ bool BorderedFactors::factorise_symmetric() {
 ///     | R      y_2                      |
 ///     | z_2^T  corner - z_1^T D_1^-1 y_1 |
 ///
-/// The rows of S K S are of one size. Where that looks singular y and z are brought to one size as wholes: stiff members beside
-/// soft ones make nothing singular by that alone, and what rounding leaves of R stays small.
+/// The rows of S K S are of one size. Where that looks singular y and z are brought to one size as wholes: stiff
+/// members beside soft ones make nothing singular by that alone, and what rounding leaves of R stays small.
 bool BorderedFactors::border_symmetric() {
   SideBySide<2> borders, carried;
   for (Index i = 0; i < n_; ++i) {

@@ -119,7 +119,8 @@ Vector RowQr::multipliers(const Vector& g) const {
   return mu;
 }
 
-/// A row left out is a combination of the others, by R alone; what rounding leaves of orthogonality the second pass takes.
+/// A row left out is a combination of the others, by R alone; what rounding leaves of orthogonality the second pass
+/// takes.
 Matrix RowQr::relations() const {
   const Index rank = tau_.size(), m = factors_.cols();
   Matrix N = Matrix::Zero(m, m - rank);

@@ -124,8 +124,8 @@ double length_of(const CutLine& line, std::size_t begin, std::size_t end) {
   return line.pieces[end - 1].along - line.pieces[begin].along;
 }
 
-/// Two curves that lie on each other lose their stability at one place: there the end of one's stable line comes near the
-/// begin of the other's unstable line, which lies on a line like itself.
+/// Two curves that lie on each other lose their stability at one place: there the end of one's stable line comes near
+/// the begin of the other's unstable line, which lies on a line like itself.
 void drop_short_better(const CutLine& line, std::vector<Cover>& covers) {
   for (std::size_t begin = 0; begin < covers.size();) {
     std::size_t end = begin;

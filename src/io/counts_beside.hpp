@@ -21,8 +21,8 @@ struct CountsBeside {
 /// A number of unstable modes for people: where springs rest no more is known of an unstable state than ">= 1".
 std::string count_text(double count, bool rests);
 
-/// Just before and just behind the point, along the branch: its two rows where a spring switches, else the points of the
-/// curve on both sides of it, between which nothing else lies.
+/// Just before and just behind the point, along the branch: its two rows where a spring switches, else the points of
+/// the curve on both sides of it, between which nothing else lies.
 /// @param column  its name
 CountsBeside counts_beside(const analysis::StudyResult& result, const analysis::Branch& branch,
                            const analysis::Event& event, std::string_view column);

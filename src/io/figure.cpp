@@ -74,9 +74,9 @@ void add_mark(Figure& figure, FigureMark mark) {
   if (is_finite(mark.at) && !is_there) figure.marks.push_back(std::move(mark));
 }
 
-/// A curve over arc length, or over a path without corners, bends between its rows as it does at them; rows of other commands
-/// and targets are what they are: straight in the values, which logarithmic axes bend. Adds the points in between, and the
-/// stability of the steps that they make.
+/// A curve over arc length, or over a path without corners, bends between its rows as it does at them; rows of other
+/// commands and targets are what they are: straight in the values, which logarithmic axes bend. Adds the points in
+/// between, and the stability of the steps that they make.
 /// @param along  as in Axes
 void bend(const StudyResult& result, const Branch& branch, const std::string& along,
           const PlotLook& look, std::vector<PlotPoint>& points, std::vector<Stability>& steps) {

@@ -53,8 +53,8 @@ bool moves_on(const StudyResult& result, const Branch& branch, double size) {
   return false;
 }
 
-/// Force over deflection; without them lambda, or over arc length. Studies that trace no branch have axes of their kind, as
-/// on the page.
+/// Force over deflection; without them lambda, or over arc length. Studies that trace no branch have axes of their
+/// kind, as on the page.
 /// @param size  of the mechanism [length]
 PageAxes axes_of(const PlannedRun& planned, const StudyResult& result, const Branch& branch,
                  double size) {

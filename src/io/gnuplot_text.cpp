@@ -22,7 +22,8 @@ std::size_t end_of_font(std::string_view text, std::size_t begin) {
 }  // namespace
 
 std::string gnuplot_string(std::string_view text) {
-  // A doubled quote stands for one only behind another character (gnuplot 5.4): a quote is a string of its own, by its code.
+  // A doubled quote stands for one only behind another character (gnuplot 5.4): a quote is a string of its own, by its
+  // code.
   std::string result = "'";
   for (const char c : shown_in_line(text)) {
     if (c == '\'')

@@ -10,8 +10,8 @@
 namespace springfold::io {
 
 /// An expression of gnuplot whose value is the text: strings between single quotes, within which nothing but the quote
-/// is special, neither `command`, $(command), @macro nor \; quotes are joined to them by their code. Ends of lines become
-/// blanks, and what else is not visible is written out (see shown()), so that every string ends where it should.
+/// is special, neither `command`, $(command), @macro nor \; quotes are joined to them by their code. Ends of lines
+/// become blanks, and what else is not visible is written out (see shown()), so that every string ends where it should.
 std::string gnuplot_string(std::string_view text);
 
 /// 'enhanced' or 'noenhanced': how gnuplot is told whether a text has markup.

@@ -20,8 +20,8 @@ struct PlacedLabel {
 };
 
 /// Labels of all marks, then of all curves; curves that lie on each other share one. No text is nearer to another curve
-/// than to its own, unless a line joins them. In crowded figures they may lie on curves; those that have no place but on
-/// another label are left out.
+/// than to its own, unless a line joins them. In crowded figures they may lie on curves; those that have no place but
+/// on another label are left out.
 std::vector<PlacedLabel> place_labels(const Figure& figure, const Canvas& canvas);
 
 }  // namespace springfold::io

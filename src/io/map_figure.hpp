@@ -28,8 +28,8 @@ using Segment = std::pair<std::pair<double, double>, std::pair<double, double>>;
 std::vector<Segment> contour(const GridField& field, double level,
                              const std::vector<std::string>& pieces = {});
 
-/// Takes lines out of cells through which more of them lead than can be told apart: there the quantity does not grow but jumps,
-/// and many white lines side by side look like nodes without value.
+/// Takes lines out of cells through which more of them lead than can be told apart: there the quantity does not grow
+/// but jumps, and many white lines side by side look like nodes without value.
 /// @param lines  pieces of the lines, by level
 /// @param most  lines in a cell that can be told apart, at least 1
 void drop_crowded(std::vector<std::vector<Segment>>& lines, const GridField& field,

@@ -42,7 +42,8 @@ std::vector<LoadDraft> read_loads(const std::vector<Item>& tables, const Mechani
 /// `mass`: >= 0.
 NumberId read_mass(const TableReader& table, NumberTable& numbers, Reading& reading);
 
-/// `inertia` of what has a mass, about its centre: one number about z in the plane, in space three, or three rows of three.
+/// `inertia` of what has a mass, about its centre: one number about z in the plane, in space three, or three rows of
+/// three.
 std::vector<NumberId> read_inertia(const TableReader& table, bool planar, NumberTable& numbers,
                                    Reading& reading);
 

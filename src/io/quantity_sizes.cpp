@@ -33,8 +33,8 @@ std::vector<const std::vector<double>*> rows_of(const StudyResult& result) {
   return rows;
 }
 
-/// The size that three quarters of the rows do not exceed, of a few rows the largest: at a singular posture stiffness is
-/// as large as rounding lets it be, and says nothing of the others.
+/// The size that three quarters of the rows do not exceed, of a few rows the largest: at a singular posture stiffness
+/// is as large as rounding lets it be, and says nothing of the others.
 double usual_size(const std::vector<const std::vector<double>*>& rows, std::size_t column) {
   constexpr double part = 0.75;
   const std::size_t stride = (rows.size() + most_rows - 1) / most_rows;

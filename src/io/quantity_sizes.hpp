@@ -7,9 +7,9 @@
 
 namespace springfold::io {
 
-/// Per quantity what its rounding is measured by: the size that the values of its unit (of a pure number: its own) usually
-/// have in the run, without the largest quarter of the rows, which may be singular; and at least that of what it is made
-/// of (a moment: force times length; an angle: 1 rad). Against it, shown_against tells what is zero.
+/// Per quantity what its rounding is measured by: the size that the values of its unit (of a pure number: its own)
+/// usually have in the run, without the largest quarter of the rows, which may be singular; and at least that of what
+/// it is made of (a moment: force times length; an angle: 1 rad). Against it, shown_against tells what is zero.
 std::vector<double> quantity_sizes(const analysis::StudyResult& result);
 
 /// Of one quantity alone: other columns are looked at only where they count for it.

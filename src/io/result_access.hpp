@@ -38,8 +38,8 @@ double shown_below(double scale);
 /// The number for people: 0 where it is nothing but rounding beside the scale.
 double shown_against(double value, double scale);
 
-/// A stiffness or compliance for people: entries are 0 where they are rounding beside the diagonal entries that they couple,
-/// whatever the units of both, or where no accuracy of the whole matrix reaches down to them.
+/// A stiffness or compliance for people: entries are 0 where they are rounding beside the diagonal entries that they
+/// couple, whatever the units of both, or where no accuracy of the whole matrix reaches down to them.
 Matrix shown_matrix(Matrix matrix);
 
 /// What people are told that a column is: what drives a body along a rotation is a moment, and the way is an angle, but

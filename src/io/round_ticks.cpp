@@ -45,7 +45,8 @@ std::vector<double> decades(const PlotRange& range, std::size_t most) {
   return values;
 }
 
-/// 1, 2 and 5 times powers of ten: of ranges that are wide and have hardly a power of ten. None where they are too many.
+/// 1, 2 and 5 times powers of ten: of ranges that are wide and have hardly a power of ten. None where they are too
+/// many.
 std::vector<double> thirds_of_decades(const PlotRange& range, std::size_t most) {
   constexpr double wide =
       10;  // times the least value: even steps would leave half of the axis empty

@@ -139,8 +139,8 @@ PlotPoint from_decades(PlotPoint at, const AxisScales& scales) {
   return at;
 }
 
-/// Is the curve smooth in decades here, as power laws are on two logarithmic axes? Near zero it is smooth in the values, and
-/// its logarithm is not; over one logarithmic axis what is straight in the values would become wavy.
+/// Is the curve smooth in decades here, as power laws are on two logarithmic axes? Near zero it is smooth in the
+/// values, and its logarithm is not; over one logarithmic axis what is straight in the values would become wavy.
 bool is_gentle(const std::vector<LineRow>& rows, std::size_t step, const AxisScales& scales) {
   constexpr double most = 0.5;  // decades from row to row
   if (!scales.x_log || !scales.y_log) return false;

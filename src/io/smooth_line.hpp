@@ -10,8 +10,8 @@
 
 namespace springfold::io {
 
-/// The quantity over which the rows of a study lie on smooth curves: "s"; of commands "path", if it has no corners, that is
-/// for a circle and for even steps along a straight line; empty: none.
+/// The quantity over which the rows of a study lie on smooth curves: "s"; of commands "path", if it has no corners,
+/// that is for a circle and for even steps along a straight line; empty: none.
 std::string smooth_along(const analysis::Study& study);
 
 /// A row of a branch in a figure.

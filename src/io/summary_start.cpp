@@ -116,7 +116,8 @@ std::string eigenvalue_line(const StudyResult& result) {
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
     if (*column < along.size()) size = std::max(size, along[*column]);
   }
-  // Against each other: along the curve they may grow by orders of magnitude. All of them may be rounding of what they are there.
+  // Against each other: along the curve they may grow by orders of magnitude. All of them may be rounding of what they
+  // are there.
   const std::vector<double> sizes(eigenvalues.size(),
                                   largest > 4 * few_roundings * size ? largest : size);
   std::string values;

@@ -108,7 +108,8 @@ std::string origin_text(const StudyResult& result, const Branch& branch) {
   return "";
 }
 
-/// Branch points and other junctions at which branches were not followed. A graph of states follows what takes over there.
+/// Branch points and other junctions at which branches were not followed. A graph of states follows what takes over
+/// there.
 std::string left_out(const StudyResult& result) {
   std::string labels;
   if (result.snap && result.snap->transitions) return "";

@@ -17,8 +17,8 @@ std::string undated_tex(std::string text);
 /// gnuplot's SVG file with "]]>" in texts as XML wants it; where it closes a CDATA section it stays.
 std::string valid_svg(std::string text);
 
-/// Takes the date out of a picture that another program has written, and makes it valid XML, as its ending says; files of
-/// other endings stay.
+/// Takes the date out of a picture that another program has written, and makes it valid XML, as its ending says; files
+/// of other endings stay.
 /// @throws std::runtime_error if it cannot be read or written
 void finish_picture(const std::filesystem::path& picture);
 

@@ -11,8 +11,8 @@ namespace springfold::model {
 /// Exact, also for an endless range.
 std::optional<DeformationRange> falling_stretch(const PolynomialSpring& law);
 
-/// The stretch nearest to 0 of deformations within its range on which the formula falls. Looked for at many places and at the least
-/// stiffness between them: what is found is sure, a narrow dip may be missed.
+/// The stretch nearest to 0 of deformations within its range on which the formula falls. Looked for at many places and
+/// at the least stiffness between them: what is found is sure, a narrow dip may be missed.
 std::optional<DeformationRange> falling_stretch(const FormulaSpring& law);
 
 }  // namespace springfold::model

@@ -14,8 +14,8 @@ namespace springfold::continuation {
 namespace {
 
 /// Residuals above this are to be corrected: derivatives then serve the next correction alone, and need no more digits
-/// than that leaves. Below it, with room for the units that the corrector measures them in, they are exact: tangents and
-/// rates are made of them.
+/// than that leaves. Below it, with room for the units that the corrector measures them in, they are exact: tangents
+/// and rates are made of them.
 constexpr double still_far = promised_place;
 
 Exactness exactness_for(const Vector& X, const Vector& F) {

@@ -49,7 +49,8 @@ class Augmented {
   double lambda(const Vector& X) const { return X[n_]; }
   /// Coefficients beta of a branch point: zero where the parameter keeps the branch.
   double unfolding(const Vector& X) const;
-  /// Of a branch point of corank 2 or more: the largest entry of G, zero where all its eigenvalues still vanish together.
+  /// Of a branch point of corank 2 or more: the largest entry of G, zero where all its eigenvalues still vanish
+  /// together.
   double parting(const Vector& X, double mu) const;
   /// The same of G's rate. @param rate  of X by mu
   double rate_of_parting(const Vector& X, double mu, const Vector& rate) const;

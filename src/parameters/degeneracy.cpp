@@ -36,15 +36,16 @@ Degeneracy turn_of_fold(const Augmented& s, const CurvePoint& p) {
     const double bending = std::abs(form(s, p, w, along, along));
     if (!(std::abs(w.dot(place->base.J.col(n))) < bending)) return Degeneracy::cusp;
   }
-  // Where another mode vanishes, one pair of borders does not tell the null vectors: they are those of [dF/dx dF/dlambda].
+  // Where another mode vanishes, one pair of borders does not tell the null vectors: they are those of [dF/dx
+  // dF/dlambda].
   const Svd svd = jacobi_svd(place->base.J, SingularVectors::thin, SingularVectors::full);
   const Vector w = svd.U.col(n - 1), a = svd.V.col(n), b = svd.V.col(n - 1);
   const double aa = form(s, p, w, a, a), ab = form(s, p, w, a, b), bb = form(s, p, w, b, b);
   return aa * bb - ab * ab > 0 ? Degeneracy::isola_centre : Degeneracy::crossing;
 }
 
-/// The determinant's sign over the norm of the inverse: smooth, as large as the smallest singular value but for a factor of
-/// the root of the number of rows at most, and zero where one more eigenvalue of dF/dx vanishes.
+/// The determinant's sign over the norm of the inverse: smooth, as large as the smallest singular value but for a
+/// factor of the root of the number of rows at most, and zero where one more eigenvalue of dF/dx vanishes.
 double signed_least(const Matrix& M) {
   Matrix inverse;
   int sign = 0;
@@ -74,8 +75,8 @@ Degeneracy corank_of_place(const Augmented& s, const CurvePoint& p) {
   return values[s.n() - lost] > poor * values[0] ? Degeneracy::hilltop : Degeneracy::corank_two;
 }
 
-/// Rates of what turns back at a corner, lambda or what the start says, and of the surface along the curve of one side, their
-/// product for a unit tangent: zero where one of them turns back; whichever way the curve is walked.
+/// Rates of what turns back at a corner, lambda or what the start says, and of the surface along the curve of one side,
+/// their product for a unit tangent: zero where one of them turns back; whichever way the curve is walked.
 double reversal(const Augmented& s, const CurvePoint& p, const Piece& side) {
   const Vector x = s.state(p.x);
   const double lambda = s.lambda(p.x);
@@ -176,8 +177,9 @@ std::optional<ReducedForm> form_at(const Augmented& s, const CurvePoint& p) {
 }
 
 /// The cubic term of a symmetric branch point, with the borders' signs of the modes: where it changes sign, the branch
-/// that leaves bends the other way. Where another eigenvalue of dF/dx vanishes the term has a pole if its mode takes part:
-/// times that eigenvalue it is regular. If the mode takes no part, what vanishes there is known as the other mode.
+/// that leaves bends the other way. Where another eigenvalue of dF/dx vanishes the term has a pole if its mode takes
+/// part: times that eigenvalue it is regular. If the mode takes no part, what vanishes there is known as the other
+/// mode.
 double bend_of_branch(const Augmented& s, const CurvePoint& p) {
   const auto form = form_at(s, p);
   if (!form || form->by_lambda.size() != 1) return not_a_number;
@@ -235,8 +237,8 @@ std::vector<Watch> watches_of(const Augmented& system, const std::vector<Critica
   std::function<Degeneracy(const CurvePoint&)> refine;
   if (kind == CriticalKind::limit_point)
     refine = [&system](const CurvePoint& p) { return turn_of_fold(system, p); };
-  // A rate may be zero to rounding all along, or come to zero and keep its sign: at a cusp the whole tangent turns, where
-  // either lambda or the parameter may be monotone.
+  // A rate may be zero to rounding all along, or come to zero and keep its sign: at a cusp the whole tangent turns,
+  // where either lambda or the parameter may be monotone.
   watches.push_back({turn, "", [](const CurvePoint& p) { return p.tangent.dlambda; },
                      EventAction::record, refine});
   watches.back().noise = function_noise;

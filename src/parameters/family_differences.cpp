@@ -18,7 +18,8 @@ constexpr double rough_step = 0x1p-10;
 /// How much wider a grid is that neighbouring places share.
 constexpr double wider = 4;
 
-/// The narrowest grid, of the step: beside places where the family is not smooth, or ends. Rounding costs as many digits.
+/// The narrowest grid, of the step: beside places where the family is not smooth, or ends. Rounding costs as many
+/// digits.
 constexpr double narrowest = 0x1p-6;
 
 /// All members of a family have the unknowns and the switches of the first one.
@@ -32,14 +33,15 @@ void check_shape(ProblemView problem, Index size, const Piece& piece) {
                                 " switches, the piece has " + std::to_string(piece.size()));
 }
 
-/// Central differences through six places, and what they are expected to be off: the next order changes them by as much less as
-/// the last one did beside the order before.
+/// Central differences through six places, and what they are expected to be off: the next order changes them by as much
+/// less as the last one did beside the order before.
 struct SixPoints {
   Vector value{};
   double expected_error = 0;
 };
 
-/// @param quotient  the central difference over [-t, t]; its error is even in t, of the first derivative as of the second
+/// @param quotient  the central difference over [-t, t]; its error is even in t, of the first derivative as of the
+///                  second
 std::optional<SixPoints> six_points(const SampledFunction& quotient, double h) {
   std::array<Vector, 3> slopes;
   for (std::size_t k = 0; k < slopes.size(); ++k) {

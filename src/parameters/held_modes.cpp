@@ -34,8 +34,8 @@ Matrix across(const Vector& direction) {
   return columns.rightCols(size - 1);
 }
 
-/// Forms C with C^T V = I that vanish on all that the symmetry keeps: W^T D^2F [path, .], since a symmetry that keeps the path
-/// changes the sign of W. Nothing where they say nothing of V, or are V itself.
+/// Forms C with C^T V = I that vanish on all that the symmetry keeps: W^T D^2F [path, .], since a symmetry that keeps
+/// the path changes the sign of W. Nothing where they say nothing of V, or are V itself.
 Matrix holding_forms(const Family& family, const CriticalStart& at, const Matrix& W,
                      const Matrix& V, const Vector& path) {
   const Index n = at.x.size(), h = V.cols();

@@ -49,7 +49,8 @@ class HeldProblem {
   const CriticalStart& start_;
 };
 
-/// The family of such problems, and the start in it. Refers to what it is made of, and is referred to: it stays where it is.
+/// The family of such problems, and the start in it. Refers to what it is made of, and is referred to: it stays where
+/// it is.
 class HeldFamily {
  public:
   HeldFamily(const Family& family, const CriticalStart& start);

@@ -177,8 +177,8 @@ std::optional<Vector> imperfection_part(const Family& family, const CriticalStar
   const auto rate = rate_with(family.step), again = rate_with(0.5 * family.step);
   if (!rate || !again) return std::nullopt;
   Vector gamma = form.W.transpose() * *rate;
-  // What does not act on the modes is zero but for rounding: of the differences, which another step does not repeat, beside
-  // what acts elsewhere, and beside what the load does to the modes.
+  // What does not act on the modes is zero but for rounding: of the differences, which another step does not repeat,
+  // beside what acts elsewhere, and beside what the load does to the modes.
   constexpr double repeated = tiny_share, beside_others = one_place, beside_load = residual_level;
   const double change = (form.W.transpose() * *again - gamma).norm();
   if (gamma.norm() <=

@@ -29,8 +29,8 @@ Matrix polar(const Matrix& columns) {
   return svd.U * svd.V.transpose();
 }
 
-/// Positive along growing mu. Where mu is stationary rounding must not decide it twice: there the largest entry does, so that
-/// the two sides take one way each.
+/// Positive along growing mu. Where mu is stationary rounding must not decide it twice: there the largest entry does,
+/// so that the two sides take one way each.
 double sense_of(const Direction& tangent) {
   if (std::abs(tangent.dlambda) > root_of_rounding) return tangent.dlambda;
   Index largest = 0;
@@ -201,8 +201,9 @@ class Follower {
     return watch.name.empty() ? kind : kind + ": " + watch.name;
   }
 
-  /// A value that is zero where a stretch begins has the sign, there and wherever it is zero to rounding, with which it leaves
-  /// it: what defines the curve, or stands still along it, crosses nothing. @returns false where the way leads outside
+  /// A value that is zero where a stretch begins has the sign, there and wherever it is zero to rounding, with which it
+  /// leaves it: what defines the curve, or stands still along it, crosses nothing. @returns false where the way leads
+  /// outside
   static bool stand_on_one_side(const Augmented& system, Watch& watch, const CurvePoint& here) {
     const double value = watch.value(here);
     if (!(std::abs(value) <= function_noise)) return true;
@@ -290,8 +291,8 @@ class Follower {
     if (!curve.points.empty()) length_ = curve.points.back().s;
   }
 
-  /// At a cusp, and at a hilltop, lambda turns back too: that is no event of its own, and what lies between the two, which
-  /// rounding tells apart, no point.
+  /// At a cusp, and at a hilltop, lambda turns back too: that is no event of its own, and what lies between the two,
+  /// which rounding tells apart, no point.
   void tidy() {
     const auto is_more = [](Degeneracy kind) {
       return kind == Degeneracy::cusp || kind == Degeneracy::isola_centre ||

@@ -28,7 +28,8 @@ struct Relations {
   Vector undetermined{}, w{};
 };
 
-/// @pre r rows depend on the others. Where more of them do, which happens at single states, the r weakest relations are taken.
+/// @pre r rows depend on the others. Where more of them do, which happens at single states, the r weakest relations are
+///      taken.
 Relations relations_of(const Matrix& J, Index r, const Vector& F) {
   Relations result;
   const RowQr rows(J, r);

@@ -57,8 +57,8 @@ double rounding_of_row(const System& system, const ControlSolver& s, Index row) 
   return few_roundings * terms;
 }
 
-/// Gaps are compared with lengths, forces with forces: a huge wrench must not excuse a gap. Forces of stiff springs leave
-/// their rounding, whatever a soft one makes of the unit of force.
+/// Gaps are compared with lengths, forces with forces: a huge wrench must not excuse a gap. Forces of stiff springs
+/// leave their rounding, whatever a soft one makes of the unit of force.
 bool is_solved(const System& system, const ControlSolver& s) {
   double size = 1, wrench = 1;
   for (Index i = 0; i < system.size; ++i) {
@@ -118,8 +118,8 @@ double step_of_command(const System& system, const ControlSolver& s, Index coord
   return 0;
 }
 
-/// Largest motion of a joint or pose in a step; wrenches and commands may change at will, and so may the deflection of a
-/// drive against its command.
+/// Largest motion of a joint or pose in a step; wrenches and commands may change at will, and so may the deflection of
+/// a drive against its command.
 double longest_move(const System& system, const ControlSolver& s) {
   double longest = 0;
   for (std::size_t k = 0; k < s.unknowns.size(); ++k) {

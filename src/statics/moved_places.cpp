@@ -17,7 +17,8 @@ bool renew_law(const model::SpringLaw& law, Index first_switch, model::CompiledS
   return true;
 }
 
-/// On bodies that turn about one direction, and beyond them, what a moment or a follower comes to depends on its direction.
+/// On bodies that turn about one direction, and beyond them, what a moment or a follower comes to depends on its
+/// direction.
 /// @returns false where that is so
 bool renew_load(std::size_t number, System& system) {
   const model::Load& load = system.mechanism.loads[number];

@@ -87,8 +87,8 @@ AlphaSlopes slopes_in(const PointShape& shape, std::size_t segment, double own,
   return {gas.slope, gas.curvature};
 }
 
-/// Beside a value at which alpha has an edge and the energy has none: the derivatives by a smooth function of the points,
-/// whose own derivatives are put into `work` in place of those of alpha.
+/// Beside a value at which alpha has an edge and the energy has none: the derivatives by a smooth function of the
+/// points, whose own derivatives are put into `work` in place of those of alpha.
 std::optional<AlphaSlopes> slopes_at_edge(const PointShape& shape, std::size_t segment,
                                           Workspace& work) {
   constexpr double beside = 1e-2;  // farther away alpha itself loses no digits

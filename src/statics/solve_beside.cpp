@@ -13,8 +13,8 @@ namespace {
 /// Sums of a few terms of a state's own size are rounded by no more than this, relative to it.
 constexpr double rounding_of_sums = 4 * std::numeric_limits<double>::epsilon();
 
-/// Newton's method with the factors of a neighbour's matrix: steps cost a residual each. They have to shrink fast and to
-/// end in rounding; otherwise false, and the state is of no use. @param steps  those that have shown that they shrink
+/// Newton's method with the factors of a neighbour's matrix: steps cost a residual each. They have to shrink fast and
+/// to end in rounding; otherwise false, and the state is of no use. @param steps those that have shown that they shrink
 bool go_by_factors(StartEquations& equations, const Lu& factors, StartState& state, int& steps,
                    double& residual) {
   constexpr int most = 8;
@@ -44,10 +44,10 @@ bool go_by_factors(StartEquations& equations, const Lu& factors, StartState& sta
   return false;
 }
 
-/// Newton's method from the solution of a neighbour, no farther than where its steps shrink as they do near one solution
-/// (Kantorovich: the first one bounds the way to it by twice its length while a step is at most a quarter of the one before).
-/// A step that does not is the sign of a singular matrix on the way, and behind that may be another equilibrium. So is a
-/// determinant of another sign than the neighbour's, at its own state too.
+/// Newton's method from the solution of a neighbour, no farther than where its steps shrink as they do near one
+/// solution (Kantorovich: the first one bounds the way to it by twice its length while a step is at most a quarter of
+/// the one before). A step that does not is the sign of a singular matrix on the way, and behind that may be another
+/// equilibrium. So is a determinant of another sign than the neighbour's, at its own state too.
 bool go_by_newton(const System& system, StartEquations& equations, const Lu* neighbour,
                   StartState& state, int& steps, double& residual) {
   constexpr int most = 8;
@@ -105,7 +105,8 @@ double polish(StartEquations& equations, StartState& state, int& iterations) {
     equations.unpack(equations.pack(state) - step, state);
     ++iterations;
   }
-  // Steps that turn a stiff member stretch it first, and the next ones take that back: the last state may be between both.
+  // Steps that turn a stiff member stretch it first, and the next ones take that back: the last state may be between
+  // both.
   while (by_steps && reached.size() > 1 && !equations.solved(reached.back(), start_tolerance))
     reached.pop_back();
   if (reached.empty()) return residual;
@@ -142,8 +143,8 @@ bool solve_beside(const System& system, const StartProblem& problem, StartEquati
     found = go_by_factors(equations, *foresight.factors, state, steps, result.residual);
     result.iterations = steps;
   }
-  // Steps that shrink by these factors show that the matrix is near theirs; without a step nothing does, but that what is
-  // expected between close neighbours solves the equations.
+  // Steps that shrink by these factors show that the matrix is near theirs; without a step nothing does, but that what
+  // is expected between close neighbours solves the equations.
   const bool is_shown = steps > 0 ? steps <= few : foresight.enclosed;
   if (found && is_shown) result.factors = foresight.factors;
   if (!found) {

@@ -80,8 +80,8 @@ double StageNewton::solve(Vector& z, const Inputs& inputs, int& iterations) {
       break;
     const Vector dz = spread(step);
     const double moved = way(dz), first_part = std::min(1.0, longest / moved);
-    // What stiff springs leave may be rounding already, and hide all of what soft ones do: then the next step by this matrix
-    // tells (Deuflhard's natural test).
+    // What stiff springs leave may be rounding already, and hide all of what soft ones do: then the next step by this
+    // matrix tells (Deuflhard's natural test).
     const auto comes_nearer = [&] {
       Matrix next = r;
       return A.solve(none, next, false) && way(spread(next)) < (1 - 0.5 * first_part) * moved;

@@ -108,8 +108,8 @@ class StartEquations {
            largest(r, false) <= tolerance * std::max(size, wrench);
   }
 
-  /// Forces of stiff springs that balance each other leave their rounding, whatever a soft one makes of the unit of force: each
-  /// row that of its own terms. (Those of a bar that has shrunk to no length would excuse every other row.)
+  /// Forces of stiff springs that balance each other leave their rounding, whatever a soft one makes of the unit of
+  /// force: each row that of its own terms. (Those of a bar that has shrunk to no length would excuse every other row.)
   bool cancels_to_rounding(const StartState& state, const Vector& r, double tolerance) {
     Matrix J;
     if (!(largest(r, true) <= tolerance) || !jacobian(state, J)) return false;

@@ -30,8 +30,8 @@ inline Piece piece_at(const PathProblem& problem, const Vector& y) {
   return piece;
 }
 
-/// A straight column of links with springs between them, pushed askew. In space they turn about x, y and z one after the
-/// other.
+/// A straight column of links with springs between them, pushed askew. In space they turn about x, y and z one after
+/// the other.
 inline PathProblem column(int links, model::TaskSpace space = model::TaskSpace::xy) {
   using namespace model;
   const Index d = dimension(space);

@@ -1,9 +1,10 @@
-// The planar Orthoglide with springs in its passive joints that are much softer, or stiffer, than its drives, against its
-// closed form: K = L = 1, sin a = y, sin b = x, e1 = x - rho + cos a, e2 = y - rho + cos b,
+// The planar Orthoglide with springs in its passive joints that are much softer, or stiffer, than its drives, against
+// its closed form: K = L = 1, sin a = y, sin b = x, e1 = x - rho + cos a, e2 = y - rho + cos b,
 //
 //     F_x = e1 + (Kv b - e2 sin b) / cos b,    F_y with x, y and a, b and e1, e2 exchanged.
 //
-// On the diagonal the force along it is sqrt 2 F_x, limit points are zeros of dF_x/dx + dF_x/dy, branch points of the difference.
+// On the diagonal the force along it is sqrt 2 F_x, limit points are zeros of dF_x/dx + dF_x/dy, branch points of the
+// difference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -116,8 +117,8 @@ TEST_P(SoftSprings, HaveEverySpecialPointOfTheClosedFormUnderEveryControl) {
   }
 }
 
-/// At -sqrt(1/2) the branch point is at the start itself. The unit of lambda that it promises beside it is a thousand times
-/// too small for the rest of the curve.
+/// At -sqrt(1/2) the branch point is at the start itself. The unit of lambda that it promises beside it is a thousand
+/// times too small for the rest of the curve.
 TEST(StartBesideACriticalPoint, LeadsToEverySpecialPointAsAnyOther) {
   for (const double Kv : {0.0, 1e-6, 0.01})
     for (const ControlMode control : {ControlMode::load, ControlMode::mixed}) {

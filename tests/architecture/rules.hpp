@@ -26,7 +26,8 @@ std::vector<std::string> includes_of(const SourceFile& file);
 /// other layers, third parties outside their place, anything but Eigen in a public header.
 std::vector<std::string> forbidden_includes(const SourceFile& file);
 
-/// Private headers of rooms of the engine that the file's room must not have, as sentences; none for files of other layers.
+/// Private headers of rooms of the engine that the file's room must not have, as sentences; none for files of other
+/// layers.
 std::vector<std::string> forbidden_rooms(const SourceFile& file);
 
 /// Third parties that must be confined to one file of their layer, but are included by several.

@@ -81,8 +81,8 @@ TEST(BesideBreakpoints, AMarkedValueIsFollowedToBehindASpringThatSwitches) {
 }
 
 TEST(RatesOfForceLimits, AreThoseOfTheClosedFormWhereLambdaIsMeasuredInALargeUnit) {
-  // A bar of free length l0 from (0, -a) to a node that is driven along y = 0: the force turns back at l0 a^2 = L^3, and lambda
-  // is counted from x = -sqrt(l0^2 - a^2).
+  // A bar of free length l0 from (0, -a) to a node that is driven along y = 0: the force turns back at l0 a^2 = L^3,
+  // and lambda is counted from x = -sqrt(l0^2 - a^2).
   const auto result = run(R"toml(
 [parameters]
 a = 0.5

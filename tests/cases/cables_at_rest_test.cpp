@@ -117,7 +117,8 @@ TEST(CablesAtRest, StretchedByAMillionthTheirBranchesSwitchRightBehindTheBranchP
   }
 }
 
-/// A column of two links of lengths 0.93 and 0.56 with springs in its hinges; a resting cable leads from its top to the ground.
+/// A column of two links of lengths 0.93 and 0.56 with springs in its hinges; a resting cable leads from its top to the
+/// ground.
 std::string guyed_column(const std::string& trace) {
   return R"([[body]]
 name = "top"
@@ -147,8 +148,8 @@ branches = { depth = 0 }
 }
 
 TEST(CablesAtRest, AtAHalfBranchTheIndexIsTheSmallerOfBothSidesWhateverTheSteps) {
-  // Without the cable the determinant of the stiffness is (c1 - P l1 + c2) (c2 - P l2) - (c2)^2 in absolute angles; with it
-  // both loads are larger: four in all. The count of all pieces grows at the first and at the last.
+  // Without the cable the determinant of the stiffness is (c1 - P l1 + c2) (c2 - P l2) - (c2)^2 in absolute angles;
+  // with it both loads are larger: four in all. The count of all pieces grows at the first and at the last.
   for (const std::string trace :
        {"", "trace = { maximum_step = 0.05 }\n", "trace = { maximum_step = 0.013 }\n"}) {
     SCOPED_TRACE(trace);
@@ -168,8 +169,8 @@ TEST(CablesAtRest, AtAHalfBranchTheIndexIsTheSmallerOfBothSidesWhateverTheSteps)
   }
 }
 
-/// The load at which the cable on the side that the mast leans to goes slack, c = k = 1, free lengths sqrt(2) - stretch:
-/// s = sin q = 1 - (free/sqrt(2))^2, P s = c q + k (l - free) dl/dq with the other cable's l^2 - free^2 = 4 s.
+/// The load at which the cable on the side that the mast leans to goes slack, c = k = 1, free lengths sqrt(2) -
+/// stretch: s = sin q = 1 - (free/sqrt(2))^2, P s = c q + k (l - free) dl/dq with the other cable's l^2 - free^2 = 4 s.
 double load_at_slack(double stretch) {
   const double share = stretch / std::sqrt(2.0), s = 2 * share - share * share, q = std::asin(s);
   const double l = std::sqrt(2 + 2 * s), free = std::sqrt(2.0) - stretch;

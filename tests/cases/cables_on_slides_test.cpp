@@ -1,4 +1,5 @@
-// Half-branches of guyed columns whose foot stands on a stiff slide, under load control and with the displacement driven.
+// Half-branches of guyed columns whose foot stands on a stiff slide, under load control and with the displacement
+// driven.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
-// A truss that snaps through and a vertical spring at its apex: force within 2 % of its mean over the middle half of the
-// way. At height y, bars of length and stiffness 1, half span a, the force is T(y) + kv (l0 - y) with
-// T(y) = 2 y (1/sqrt(a^2 + y^2) - 1), odd in y: the mean is kv l0. The least change is where the deviation T(y) - kv y is
-// as large at an inner place as at the end; solved with 25 digits for half span 1 and height 0.5.
+// A truss that snaps through and a vertical spring at its apex: force within 2 % of its mean over the middle half of
+// the way. At height y, bars of length and stiffness 1, half span a, the force is T(y) + kv (l0 - y) with T(y) = 2 y
+// (1/sqrt(a^2 + y^2) - 1), odd in y: the mean is kv l0. The least change is where the deviation T(y) - kv y is as large
+// at an inner place as at the end; solved with 25 digits for half span 1 and height 0.5.
 #include <gtest/gtest.h>
 
 #include "analysis/steep_truss.hpp"

@@ -40,8 +40,8 @@ TEST(CountsBesideSpecialPoints, StandInTheSummaryAndInTheTableOfEvents) {
   EXPECT_THAT(table, HasSubstr(",index_before,index_after,"));
 }
 
-/// A mast on a universal joint, pressed upright: one axis has a spring with a kink, two cables rest at its top. The pieces'
-/// eigenvalues pass zero one by one, outside of their cones too, where nothing happens to the mast.
+/// A mast on a universal joint, pressed upright: one axis has a spring with a kink, two cables rest at its top. The
+/// pieces' eigenvalues pass zero one by one, outside of their cones too, where nothing happens to the mast.
 const std::string mast_with_cables_at_rest = R"(
 [[body]]
 name = "top"
@@ -76,7 +76,8 @@ TEST(CountsBesideSpecialPoints, OfSpringsAtRestAreAtLeastOneAndTheFilesHaveTheCo
   const analysis::StudyResult& result = ran.of("press");
   const analysis::Branch& branch = result.branches.at(0);
   const auto index = *column_of(result, "index");
-  // It falls where j1 is negative and c1 is stretched: stiffnesses of both axes with that of the cable, 300/2 along (q, p).
+  // It falls where j1 is negative and c1 is stretched: stiffnesses of both axes with that of the cable, 300/2 along (q,
+  // p).
   const double p = 0.4899417871163775, q = 0.8717551521139466, a = 2000 + 150 * q * q,
                b = 1500 + 150 * p * p;
   const double falls = (a + b) / 2 - std::hypot((a - b) / 2, 150 * p * q);

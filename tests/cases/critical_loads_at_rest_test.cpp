@@ -13,8 +13,8 @@ namespace {
 using analysis::EventKind;
 using analysis::StudyResult;
 
-/// A mast of length L on a hinge, held by cables from (-0.9, 0) and from (b, h), all without force. A cable that is stretched
-/// alone holds P = k L u^2, u the horizontal part of its direction.
+/// A mast of length L on a hinge, held by cables from (-0.9, 0) and from (b, h), all without force. A cable that is
+/// stretched alone holds P = k L u^2, u the horizontal part of its direction.
 std::string mast(const std::string& parameters, const std::string& studies) {
   return "[parameters]\nc = 0\nk = 1\n" + parameters + R"toml(
 [[body]]
@@ -208,8 +208,8 @@ TEST(CriticalLoadsAtRest, HaveNoCurveInAPretension) {
   EXPECT_THAT(result.start.message, testing::HasSubstr("springs rest at KB1"));
 }
 
-/// Three equal cables around a mast in space: it gives way towards one of them, with the other two stretched, each by half of
-/// what it would be in their own direction: P = (1/4 + 1/4) k L u^2.
+/// Three equal cables around a mast in space: it gives way towards one of them, with the other two stretched, each by
+/// half of what it would be in their own direction: P = (1/4 + 1/4) k L u^2.
 TEST(CriticalLoadsAtRest, OfThreeCablesInSpaceAreHalfOfWhatOneHoldsInItsOwnPlane) {
   std::string text = R"toml(
 [parameters]
@@ -238,8 +238,8 @@ elements = [{ joint = "revolute", axis = "x", name = "a" }, { joint = "revolute"
     EXPECT_NEAR(sample.values[column(result, "lambda")], sample.values.back() * part, 1e-10);
 }
 
-/// Three links of length 1; the hinge at the foot is stiffer to one side, the upper one hardly turns. With the upper two as one
-/// link (c1 - 3 P)(c2 - 2 P) = 4 P^2.
+/// Three links of length 1; the hinge at the foot is stiffer to one side, the upper one hardly turns. With the upper
+/// two as one link (c1 - 3 P)(c2 - 2 P) = 4 P^2.
 TEST(CriticalLoadsAtRest, BesideAHingeThatHardlyTurnsMoveAsIfItWereFixed) {
   for (const char* stiff : {"1e7", "1e9"}) {
     SCOPED_TRACE(stiff);

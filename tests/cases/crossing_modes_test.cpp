@@ -1,4 +1,5 @@
-// First critical loads of columns on an elastic foundation, of which another mode is the first on either side of a value.
+// First critical loads of columns on an elastic foundation, of which another mode is the first on either side of a
+// value.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,8 +12,8 @@
 namespace springfold::io {
 namespace {
 
-/// A pinned column of n rigid links of length 1, joints of stiffness c between them, springs of stiffness kf from them to the
-/// straight line. Mode m has y_i = sin(m pi i / n), and with s = 2 - 2 cos(m pi / n) the load c s + kf / s.
+/// A pinned column of n rigid links of length 1, joints of stiffness c between them, springs of stiffness kf from them
+/// to the straight line. Mode m has y_i = sin(m pi i / n), and with s = 2 - 2 cos(m pi / n) the load c s + kf / s.
 std::string column_on_springs(int n, double kf, const std::string& study) {
   std::string text =
       "[parameters]\nc = 1\nkf = " + std::to_string(kf) +

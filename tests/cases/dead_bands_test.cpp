@@ -1,4 +1,5 @@
-// Bars that nothing holds within a dead band: under no load they stand anywhere there, which is one family of equilibria.
+// Bars that nothing holds within a dead band: under no load they stand anywhere there, which is one family of
+// equilibria.
 #include <gmock/gmock.h>
 
 #include <cmath>

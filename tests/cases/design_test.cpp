@@ -3,8 +3,8 @@
 //
 //     F(s) = sqrt(2) ((s + c - rho) (1 - s/c) + Kv q/c),   rho: F(p) = 0,
 //
-// its limit points are at F'(s) = 0. The expected numbers solve the conditions of Karush, Kuhn and Tucker of each problem
-// with 30 digits.
+// its limit points are at F'(s) = 0. The expected numbers solve the conditions of Karush, Kuhn and Tucker of each
+// problem with 30 digits.
 #include "springfold/analysis/design.hpp"
 
 #include <gmock/gmock.h>

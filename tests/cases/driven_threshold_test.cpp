@@ -91,7 +91,8 @@ TEST(DrivenThreshold, OfTheForceAtACornerIsWhereTheForceNoLongerTurnsBack) {
   }
 }
 
-/// V = p x^2/2 - x^4/4: on the path up to x = 0.2 there is a limit point for 0 < p < 0.12, and for p < 0 the start is unstable.
+/// V = p x^2/2 - x^4/4: on the path up to x = 0.2 there is a limit point for 0 < p < 0.12, and for p < 0 the start is
+/// unstable.
 const std::string softening =
     "{ law = \"polynomial\", coefficients = [0, \"p\", 0, -1], falling = true }";
 

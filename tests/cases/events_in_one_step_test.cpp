@@ -16,8 +16,8 @@ using analysis::EventKind;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A platform on six equal springs, turned by 8 degrees against its base, driven down: two modes become unstable under dead
-/// load, soon after them a third one.
+/// A platform on six equal springs, turned by 8 degrees against its base, driven down: two modes become unstable under
+/// dead load, soon after them a third one.
 std::string driven_platform(const std::string& trace) {
   std::string text = R"(
 [[body]]
@@ -60,8 +60,8 @@ TEST(EventsInOneStep, HaveTheCountsBesideThemWhateverTheSteps) {
         << trace;
 }
 
-/// Two bars of length l0 on feet 2 apart, pressed down at the apex. The load turns where l^3 = l0, and the apex sways from where
-/// l^3 - l0 l^2 + l0 = 0: at the same place where l0^2 = 8.
+/// Two bars of length l0 on feet 2 apart, pressed down at the apex. The load turns where l^3 = l0, and the apex sways
+/// from where l^3 - l0 l^2 + l0 = 0: at the same place where l0^2 = 8.
 std::string truss(double l0, const std::string& step) {
   const double height = std::sqrt(l0 * l0 - 1), angle = std::atan(height);
   const auto leg = [&](const std::string& name, const std::string& x, double initial) {
@@ -111,8 +111,8 @@ TEST(EventsInOneStep, ABranchPointThatIsNotToldFromALimitPointSaysThatTheForceTu
   }
 }
 
-/// A mast of four links with two cables that rest; the piece on which only the second one acts is singular within 1.2e-5 of
-/// the piece on which both act, whose mode leads out of it.
+/// A mast of four links with two cables that rest; the piece on which only the second one acts is singular within
+/// 1.2e-5 of the piece on which both act, whose mode leads out of it.
 const std::string mast_with_a_weak_cable = R"(
 [[body]]
 name = "top"

@@ -13,8 +13,8 @@ namespace {
 using analysis::EventKind;
 constexpr double right_angle = std::numbers::pi / 2;
 
-/// A bar of length 1 on a hinge c = 2 that is relaxed at 0.3 rad from upright, pressed down: P sin t = c (t - 0.3). Its tip is
-/// farthest out where the bar lies flat.
+/// A bar of length 1 on a hinge c = 2 that is relaxed at 0.3 rad from upright, pressed down: P sin t = c (t - 0.3). Its
+/// tip is farthest out where the bar lies flat.
 std::string bar(const std::string& study) {
   return R"toml(
 [parameters]

@@ -131,7 +131,8 @@ TEST(AFamily, BegunNearerToItsEndThanPointsAreToldApartIsNotSaidToBeComplete) {
 }
 
 TEST(AFamily, OfTwoLinksInADeadBandThatEndsUprightIsOne) {
-  // The foot turns freely from 0 to d, at no load: where it stands upright the straight column crosses, at d the spring acts.
+  // The foot turns freely from 0 to d, at no load: where it stands upright the straight column crosses, at d the spring
+  // acts.
   for (const double d : {1e-4, 1e-2, 0.3}) {
     SCOPED_TRACE(d);
     const std::string begin = std::to_string(0.4 * d);
@@ -155,9 +156,9 @@ TEST(AFamily, OfTwoLinksInADeadBandThatEndsUprightIsOne) {
   }
 }
 
-/// A gravity-balanced arm whose spring between (0, a) and b along the arm is too stiff by a share e: with the payload P at its end
-/// the potential is (e m g - P) L (1 - sin theta), so that all positions are equilibria at P = e m g. Its matrix is a small
-/// difference of large terms there.
+/// A gravity-balanced arm whose spring between (0, a) and b along the arm is too stiff by a share e: with the payload P
+/// at its end the potential is (e m g - P) L (1 - sin theta), so that all positions are equilibria at P = e m g. Its
+/// matrix is a small difference of large terms there.
 TEST(AFamily, LeavesTheUprightStateOfAnArmAtThePayloadThatBalancesIt) {
   for (const char* share : {"1e-1", "1e-3", "1e-5"}) {
     const auto result =

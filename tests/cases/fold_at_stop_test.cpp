@@ -78,8 +78,9 @@ TEST(FoldAtStop, ADesignWithThatGapIsConfirmedToo) {
   }
 }
 
-/// Over a the first fold, q = -sqrt(a), meets the stop at a = g^2. There it and the corner are born in which the load rises
-/// again, up to a = g^2 + k / 3, where the load falls behind the stop too: there the corner and the folds q^2 = a - k / 3 meet.
+/// Over a the first fold, q = -sqrt(a), meets the stop at a = g^2. There it and the corner are born in which the load
+/// rises again, up to a = g^2 + k / 3, where the load falls behind the stop too: there the corner and the folds q^2 = a
+/// - k / 3 meet.
 TEST(FoldAtStop, LimitPointsAreFollowedBeyondTheStop) {
   using analysis::EventKind;
   constexpr double g = -0.5, k = 0.6;
@@ -117,8 +118,8 @@ TEST(FoldAtStop, LimitPointsAreFollowedBeyondTheStop) {
   EXPECT_NEAR(at(result.branches[2].samples.back(), "a"), 2, 1e-9);
 }
 
-/// A second stop on the way, q > -0.2, of stiffness 1.5, takes the folds q^2 = a - 0.2 up at a = 0.24, lets them go on as a
-/// corner up to a = 0.74, and then as q^2 = a - 0.7.
+/// A second stop on the way, q > -0.2, of stiffness 1.5, takes the folds q^2 = a - 0.2 up at a = 0.24, lets them go on
+/// as a corner up to a = 0.74, and then as q^2 = a - 0.7.
 TEST(FoldAtStop, LimitPointsAreFollowedBeyondASecondStop) {
   using analysis::EventKind;
   const auto result = run(slider_with_stop("-0.5", R"toml(kind = "critical_curve"

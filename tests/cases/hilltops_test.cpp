@@ -1,5 +1,5 @@
-// Equal bistable units: where the load turns back, branches in which the units part cross the path. Along the path that is a limit
-// point, which has a curve over a parameter, a threshold, a first critical load and rates.
+// Equal bistable units: where the load turns back, branches in which the units part cross the path. Along the path that
+// is a limit point, which has a curve over a parameter, a threshold, a first critical load and rates.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -11,7 +11,8 @@ namespace springfold::io {
 namespace {
 
 TEST(HistoryOfASearch, MembersStartInTheEquilibriumThatGoesOnHoweverItIsNumbered) {
-  // Mirrored equilibria of a truss on a tie: by symmetry their limit loads have rates of one size, and a small one by k.
+  // Mirrored equilibria of a truss on a tie: by symmetry their limit loads have rates of one size, and a small one by
+  // k.
   std::string text = R"toml(
 [parameters]
 k = 100

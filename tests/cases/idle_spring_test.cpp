@@ -65,7 +65,8 @@ TEST(IdleSpring, LimitPointsGoOnBehindItsThreshold) {
   EXPECT_NEAR(end[1], first_load(1), 1e-9);
 }
 
-/// Beyond g = 0.8 the spring acts at the start already. The limit point does not mind: it lies on the segment where it acts.
+/// Beyond g = 0.8 the spring acts at the start already. The limit point does not mind: it lies on the segment where it
+/// acts.
 TEST(SwitchingStart, DoesNotEndACriticalCurve) {
   const std::string curve =
       "kind = \"critical_curve\"\ncritical_curve = { of = \"LP1\", parameter = \"g\", range = "

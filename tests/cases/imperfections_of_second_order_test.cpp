@@ -9,9 +9,9 @@
 namespace springfold::io {
 namespace {
 
-/// A strut of length 1 on a hinge with moment q + c q^2, held by a guy of stiffness 0.3 and length 1.5 across. Its anchor is
-/// shifted along the strut by m, which stretches it by m^2/3: across acts 0.3 m^2/3, and near the branch point at 1.3
-/// c q^2 - l q + 0.1 m^2 = 0.
+/// A strut of length 1 on a hinge with moment q + c q^2, held by a guy of stiffness 0.3 and length 1.5 across. Its
+/// anchor is shifted along the strut by m, which stretches it by m^2/3: across acts 0.3 m^2/3, and near the branch
+/// point at 1.3 c q^2 - l q + 0.1 m^2 = 0.
 std::string shifted_guy(const std::string& c, const std::string& study) {
   return "[parameters]\nm = 0\nc = " + c + R"toml(
 [[body]]

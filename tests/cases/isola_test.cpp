@@ -12,8 +12,8 @@ namespace {
 using analysis::EventKind;
 
 TEST(Isola, ShrinksToItsCentreWhereTheDrivenPathHasNoStart) {
-  // q^3 - 2.9 q = cos(phi)/2 + b, driven by phi: around phi = pi the least b at q = -sqrt(2.9/3) ends in an isola centre. The start
-  // of the path, at phi = 2.725, meets its own limit point before.
+  // q^3 - 2.9 q = cos(phi)/2 + b, driven by phi: around phi = pi the least b at q = -sqrt(2.9/3) ends in an isola
+  // centre. The start of the path, at phi = 2.725, meets its own limit point before.
   const auto result = run(R"(
 [parameters]
 phi = 2.725

@@ -1,5 +1,5 @@
-// Designs where a requirement jumps: a pair of branch points is born, so that beyond a line in the parameters' space there
-// is no critical load at all, and before it one that is too low.
+// Designs where a requirement jumps: a pair of branch points is born, so that beyond a line in the parameters' space
+// there is no critical load at all, and before it one that is too low.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,9 +53,10 @@ critical_load = { at_least = 2, of = "loss_of_stability" }
 
 double line_of_eta(double k2) { return 1 - 4 * k2 / std::pow(1 + 2 * k2, 2); }
 
-/// A strut of length 1 on a hinge spring kt presses its tip with k1 d, d <= g, and with k1 g beyond, its spring then being
-/// released; another spring carries the load with it. The tip stays on its straight way as long as the thrust times the
-/// length is less than kt: there is no buckling for kt > k1 g (1 - g), where two branch points meet at the release.
+/// A strut of length 1 on a hinge spring kt presses its tip with k1 d, d <= g, and with k1 g beyond, its spring then
+/// being released; another spring carries the load with it. The tip stays on its straight way as long as the thrust
+/// times the length is less than kt: there is no buckling for kt > k1 g (1 - g), where two branch points meet at the
+/// release.
 const std::string one_release =
     R"(spring = { law = "piecewise_linear", breakpoints = ["1-g"], stiffnesses = [0, "k1"], free = 1 })";
 

@@ -51,8 +51,8 @@ TEST(CubicTables, HaveLimitPointsOnTheDataPointsThatAreTheirExtrema) {
   EXPECT_NEAR(found[1][1], 0.36, 1e-12);
 }
 
-/// The steepest fall of the cubics from (0.6, 0.66) over (1, 0.5) to (1.3, 0.36), whose slope at 1 is that of Fritsch and
-/// Butland and at both ends 0.
+/// The steepest fall of the cubics from (0.6, 0.66) over (1, 0.5) to (1.3, 0.36), whose slope at 1 is that of Fritsch
+/// and Butland and at both ends 0.
 double steepest_fall() {
   const double h1 = 0.4, h2 = 0.3, d1 = -0.16 / h1, d2 = -0.14 / h2;
   const double a = (1 + h2 / (h1 + h2)) / 3, slope = d1 * d2 / (a * d2 + (1 - a) * d1);

@@ -14,8 +14,8 @@ namespace {
 constexpr double strut_stiffness = 2, cable_tension = 0.1, half_span = 0.8;
 const double cable_length = std::sqrt(1 + half_span * half_span);
 
-/// A strut of stiffness ka and height 1 between two equal cables under the tension T. Both go slack at once, at the load
-/// ka (1 - height) of the height at which a cable is as long as it is without force.
+/// A strut of stiffness ka and height 1 between two equal cables under the tension T. Both go slack at once, at the
+/// load ka (1 - height) of the height at which a cable is as long as it is without force.
 double height_of_slack(double tension) {
   return std::sqrt((cable_length - tension) * (cable_length - tension) - half_span * half_span);
 }

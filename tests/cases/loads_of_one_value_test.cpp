@@ -1,5 +1,5 @@
-// First critical loads over a parameter of which one value has another critical point than all values beside it: a strut on a
-// softening hinge, whose load is tilted.
+// First critical loads over a parameter of which one value has another critical point than all values beside it: a
+// strut on a softening hinge, whose load is tilted.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 namespace springfold::io {
 namespace {
 
-/// Moment q up to 0.8, a fifth of its slope behind. Upright it branches at c/L = 1, supercritically; tilted by next to nothing it
-/// bends at once, and the load turns back at the breakpoint: lambda sin(0.8) = 0.8.
+/// Moment q up to 0.8, a fifth of its slope behind. Upright it branches at c/L = 1, supercritically; tilted by next to
+/// nothing it bends at once, and the load turns back at the breakpoint: lambda sin(0.8) = 0.8.
 const double load_of_tilted = 0.8 / std::sin(0.8);
 
 std::string tilted_strut(const std::string& range) {
@@ -80,8 +80,9 @@ TEST(LoadsOfOneValue, ARangeThatMissesTheValueHasTheLoadOfItsNeighboursThroughou
 }
 
 TEST(LoadsOfOneValue, PiecesThatComeToItAndEndBeforeTheNextValueAreFollowed) {
-  // An asymmetric hinge, torque T = q + q^2/2 + q^3: limit points for small tilts of one sign only, from the transcritical branch
-  // point of the upright strut to the cusp at T + T'' = 0, tan(q - e) = T/T' (the sign of e is that of the load's side).
+  // An asymmetric hinge, torque T = q + q^2/2 + q^3: limit points for small tilts of one sign only, from the
+  // transcritical branch point of the upright strut to the cusp at T + T'' = 0, tan(q - e) = T/T' (the sign of e is
+  // that of the load's side).
   const auto result =
       run(strut_on_hinge("{ law = \"polynomial\", coefficients = [0, 1, 0.5, 1] }") +
           R"toml([[study]]

@@ -9,8 +9,8 @@
 namespace springfold::io {
 namespace {
 
-/// A truss of two bars at 45 degrees, pushed down by a weight W and lambda together: their limit point is at (1 - 2^(-1/3))^1.5
-/// times two, of bars of stiffness 1.
+/// A truss of two bars at 45 degrees, pushed down by a weight W and lambda together: their limit point is at (1 -
+/// 2^(-1/3))^1.5 times two, of bars of stiffness 1.
 std::string weighed_truss(const std::string& study) {
   return R"toml(
 [parameters]

@@ -8,8 +8,8 @@
 namespace springfold::io {
 namespace {
 
-/// A slider at y = 1 on a spring that pushes back by 1.9 (1 - y) down to y = b and less below: the force has its maximum in that
-/// corner, and nothing holds the slider at a larger one.
+/// A slider at y = 1 on a spring that pushes back by 1.9 (1 - y) down to y = b and less below: the force has its
+/// maximum in that corner, and nothing holds the slider at a larger one.
 TEST(MapLoads, AreThoseOfCornersAtWhichAForceIsLargest) {
   const auto result = run(R"toml(
 [parameters]
@@ -34,8 +34,8 @@ critical = { direction = [0, -1], up_to = 10 }
     EXPECT_NEAR(value(result, row, "critical_load"), 1.9 * (1 - value(result, row, "b")), 1e-9);
 }
 
-/// A drive of stiffness 0.5 and a spring along it whose force falls by 0.7 between two thresholds: without the drive moving, the
-/// point is unstable there, 0.5 - 0.7 < 0.
+/// A drive of stiffness 0.5 and a spring along it whose force falls by 0.7 between two thresholds: without the drive
+/// moving, the point is unstable there, 0.5 - 0.7 < 0.
 TEST(ControlPath, LosesAndRegainsStabilityWhereASpringSwitchesInOneEventEach) {
   const auto result = run(R"toml(
 [[body]]

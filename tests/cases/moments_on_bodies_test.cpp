@@ -234,7 +234,8 @@ until = { lambda = [0, 0.5] }
   EXPECT_THAT(summary_table(ran.read, ran.results), HasSubstr("NON-CONSERVATIVE"));
 }
 
-/// The body's y lies along the axis of its hinge: the follower moment M turns it as the driving one does, t = lambda + M.
+/// The body's y lies along the axis of its hinge: the follower moment M turns it as the driving one does, t = lambda +
+/// M.
 TEST(FollowerMoments, AsParametersMoveLoadsAsFixedOnesDo) {
   const auto result = run(R"toml(
 [parameters]

@@ -10,8 +10,8 @@ namespace springfold::io {
 namespace {
 
 TEST(NearestMiss, OfACriticalLoadIsTheLargestOneWithinTheBounds) {
-  // A truss of height h on the half span 1, two bars of stiffness k: P = 2 k ((1 + h^2)^(1/3) - 1)^(3/2) grows with both. A truss
-  // that is nearly flat has next to no limit point, but next to no load either.
+  // A truss of height h on the half span 1, two bars of stiffness k: P = 2 k ((1 + h^2)^(1/3) - 1)^(3/2) grows with
+  // both. A truss that is nearly flat has next to no limit point, but next to no load either.
   const auto result = run(R"toml(
 [parameters]
 h = 0.5

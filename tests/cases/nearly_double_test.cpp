@@ -9,8 +9,9 @@
 namespace springfold::io {
 namespace {
 
-/// A mast of length 1.1 on a universal joint with springs k1 about x and k2 = r k1 about y, pressed from above. It bends about either
-/// axis from k/L on; where it is bent about the stiffer one by a, a / tan a = r, it may swing about the other. Nine branches.
+/// A mast of length 1.1 on a universal joint with springs k1 about x and k2 = r k1 about y, pressed from above. It
+/// bends about either axis from k/L on; where it is bent about the stiffer one by a, a / tan a = r, it may swing about
+/// the other. Nine branches.
 TEST(NearlyDouble, CriticalLoadsLeaveAllBranchesWithoutADoubt) {
   for (const char* ratio : {"1 - 1e-3", "1 - 1e-4", "1 - 1e-6"}) {
     const auto result = run(std::string("[parameters]\nk1 = 1.7\nk2 = \"k1*(") + ratio + R"toml()"

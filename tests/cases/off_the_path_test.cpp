@@ -1,4 +1,5 @@
-// Thresholds and first critical loads of points that the path from the start leaves, or that cannot be followed everywhere.
+// Thresholds and first critical loads of points that the path from the start leaves, or that cannot be followed
+// everywhere.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -11,8 +12,8 @@ namespace {
 using testing::HasSubstr;
 
 TEST(OffThePath, AThresholdIsWhereThePathNoLongerComesToThePointThatIsFollowed) {
-  // A truss whose bars have their free lengths at the height 0.3 is pulled sideways. With a pull a little downwards the apex
-  // snaps through; with one a little upwards it does not; the limit point goes on to the mirror image of the path.
+  // A truss whose bars have their free lengths at the height 0.3 is pulled sideways. With a pull a little downwards the
+  // apex snaps through; with one a little upwards it does not; the limit point goes on to the mirror image of the path.
   const auto result = run(R"toml(
 [parameters]
 psi = -0.2
@@ -55,9 +56,9 @@ threshold = { of = "loss_of_stability", parameter = "psi", range = [-0.6, 0.6] }
 }
 
 TEST(OffThePath, AThresholdIsACrossingJustBeforeTheEndOfThePointThatIsFollowed) {
-  // An Orthoglide with one-sided springs in its knees: the corner goes on for 1.2e-4 behind the crossing at which the path
-  // leaves it, to where it touches the surface of its spring. The crossing is one of F = 0 and adj(H) d = 0 on the piece
-  // without springs, H the stiffness and d the direction of the load, solved in 25 digits.
+  // An Orthoglide with one-sided springs in its knees: the corner goes on for 1.2e-4 behind the crossing at which the
+  // path leaves it, to where it touches the surface of its spring. The crossing is one of F = 0 and adj(H) d = 0 on the
+  // piece without springs, H the stiffness and d the direction of the load, solved in 25 digits.
   const auto result = run(R"toml(
 [parameters]
 psi = 1.3962
@@ -96,8 +97,8 @@ threshold = { of = "loss_of_stability", parameter = "psi", range = [-0.3, 2.2], 
 }
 
 TEST(OffThePath, FirstCriticalLoadsAreKnownOnBothSidesOfAKinkOfTheCase) {
-  // A guided truss over a post that is stiffer beyond the length b. Where its free length f passes b the law itself has a kink
-  // in f: below the force is k1 (u - f), above k2 (b - f) + k1 (u - b).
+  // A guided truss over a post that is stiffer beyond the length b. Where its free length f passes b the law itself has
+  // a kink in f: below the force is k1 (u - f), above k2 (b - f) + k1 (u - b).
   const auto result = run(R"toml(
 [parameters]
 f = 0.7

@@ -65,7 +65,8 @@ TEST(PartedModes, AreOneValueOfTheFirstCriticalLoadThatIsSampledAmongOthers) {
   EXPECT_NEAR(result.branches[1].samples.front().values[column(result, "c2")], 1, 1e-9);
 }
 
-/// Both loads have to grow: the least of them alone has no derivative where they are equal, at the case and at the answer.
+/// Both loads have to grow: the least of them alone has no derivative where they are equal, at the case and at the
+/// answer.
 TEST(PartedModes, OfADesignAreMadeSafeTogether) {
   const auto ran = run(bar_on_universal_joint(
       "kind = \"design\"\ndesign.parameters = { c1 = [0.5, 2], c2 = [0.5, 2] }\n"
@@ -79,7 +80,8 @@ TEST(PartedModes, OfADesignAreMadeSafeTogether) {
   EXPECT_LT(result.design->designs, 100);
 }
 
-/// The same with springs c u - 0.3 u^3, pushed under an angle psi: two limit points meet at the branch point of psi = 0.
+/// The same with springs c u - 0.3 u^3, pushed under an angle psi: two limit points meet at the branch point of psi =
+/// 0.
 TEST(PartedModes, OfThePerfectStructureLieOnTheCurveOfItsImperfectOnes) {
   const auto ran = run(R"toml(
 [parameters]

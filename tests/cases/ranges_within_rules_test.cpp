@@ -1,6 +1,6 @@
-// Ranges of a parameter that reach beyond what a case may be given with: a spring whose stiffness would be negative.
-// A truss of one bar to a guided apex, of length L with L^2 = 1 + y^2 and L0 at y = 1/2, and a spring of stiffness kv: the load
-// is (L0 - L) y / L + kv (1/2 - y).
+// Ranges of a parameter that reach beyond what a case may be given with: a spring whose stiffness would be negative. A
+// truss of one bar to a guided apex, of length L with L^2 = 1 + y^2 and L0 at y = 1/2, and a spring of stiffness kv:
+// the load is (L0 - L) y / L + kv (1/2 - y).
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -44,8 +44,8 @@ control = ")toml" +
          control + "\"\n" + study;
 }
 
-/// The cable is slack before it becomes active: the path to there, counted from a start that it does not touch, is the same for
-/// all lc.
+/// The cable is slack before it becomes active: the path to there, counted from a start that it does not touch, is the
+/// same for all lc.
 TEST(RatesOfSpecialPoints, DoNotMixPiecesOfTheStart) {
   for (const double slack : {1e-4, 1e-3, 5e-3, 2e-2}) {
     SCOPED_TRACE(slack);

@@ -105,9 +105,9 @@ TEST(Reach, EndsWhereACurveWouldGoOnThroughAnInfiniteForce) {
     EXPECT_GT(value(result, row, "force"), 0);
 }
 
-/// A parallelogram on torsion springs 0.9 and 0.6 at its feet and 0.2 at one end of the coupler: 1.7 s = 0.9 f + 0.98 with the
-/// angle s of both cranks and the free angle f of the first spring. Flat, at s = 0 and pi, the cranks cannot pass forces to
-/// each other: those along them grow as 1/sin(s).
+/// A parallelogram on torsion springs 0.9 and 0.6 at its feet and 0.2 at one end of the coupler: 1.7 s = 0.9 f + 0.98
+/// with the angle s of both cranks and the free angle f of the first spring. Flat, at s = 0 and pi, the cranks cannot
+/// pass forces to each other: those along them grow as 1/sin(s).
 const std::string parallelogram = R"toml(
 [parameters]
 f = 1
@@ -155,8 +155,8 @@ TEST(Reach, OfAParallelogramEndsBesideItsFlatPositionsInRowsThatAreEquilibria) {
   EXPECT_GT(value(result, rows - 1, "l.Fx"), 1e3);
 }
 
-/// A crank of 0.6 and a rod as long, folded where the slider stands in the crank's foot: x = 1.2 cos(a). There it has a force
-/// across the slide that grows as 1/x: 1.3 (a - 0.8) = c.Fy x with the torque of the crank's spring.
+/// A crank of 0.6 and a rod as long, folded where the slider stands in the crank's foot: x = 1.2 cos(a). There it has a
+/// force across the slide that grows as 1/x: 1.3 (a - 0.8) = c.Fy x with the torque of the crank's spring.
 TEST(Reach, OfAFoldedRodEndsInARowThatBalances) {
   const auto result = run(R"toml(
 [[body]]
@@ -194,8 +194,8 @@ until = { lambda = [-0.3, 2.2] }
   }
 }
 
-/// Three legs at a body of irregular sizes, one of which the force along an irregular direction stretches. Behind 1e5 times the forces
-/// of the start rounding would make touches of a curve that has none.
+/// Three legs at a body of irregular sizes, one of which the force along an irregular direction stretches. Behind 1e5
+/// times the forces of the start rounding would make touches of a curve that has none.
 TEST(Reach, IsFoundWhileACurveIsFollowedBeforeRoundingMakesEvents) {
   const auto result = run(R"toml(
 [[body]]
@@ -258,8 +258,8 @@ branches={depth=1,maximum=6}
   EXPECT_NEAR(std::remainder(value(result, last, "c1.j2"), std::numbers::pi), 0, 1e-6);
 }
 
-/// Two mirrored arms of links 1 and 0.6 that fold at x = 0.4, their body held across by a spring: as the force grows without bound
-/// the body buckles to one side, however stiff that spring is.
+/// Two mirrored arms of links 1 and 0.6 that fold at x = 0.4, their body held across by a spring: as the force grows
+/// without bound the body buckles to one side, however stiff that spring is.
 std::string folding_arms(double across, double off) {
   const double x = 0.9, knee = std::acos((x * x - 1.36) / 1.2);
   const double foot = -std::atan2(0.6 * std::sin(knee), 1 + 0.6 * std::cos(knee));

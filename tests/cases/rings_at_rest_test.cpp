@@ -1,4 +1,5 @@
-// A mast in space within a ring of equal cables at rest: half-branches along which cables across stay at rest to first order.
+// A mast in space within a ring of equal cables at rest: half-branches along which cables across stay at rest to first
+// order.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,9 +26,10 @@ struct Ring {
   double foot = foot_spring;
 };
 
-/// A mast of length 1 on a universal joint with springs, and n cables of stiffness 1 from a circle of radius 1 to its top. Where
-/// it leans by w the cables with w . u < 0 act, each with 1/2 of its stiffness across: for even n > 2 together n/8 in all
-/// directions. Cables across w keep their length, but for what the springs of the joint add to third order.
+/// A mast of length 1 on a universal joint with springs, and n cables of stiffness 1 from a circle of radius 1 to its
+/// top. Where it leans by w the cables with w . u < 0 act, each with 1/2 of its stiffness across: for even n > 2
+/// together n/8 in all directions. Cables across w keep their length, but for what the springs of the joint add to
+/// third order.
 std::string ring(const Ring& of) {
   const auto& [n, first, foot] = of;
   std::string text = R"([[body]]

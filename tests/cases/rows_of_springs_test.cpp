@@ -1,5 +1,5 @@
-// Rows of springs, each as stiff as it likes: spring i is stretched by load / k_i, whatever the others are, and node i moves by
-// the sum of what lies before it.
+// Rows of springs, each as stiff as it likes: spring i is stretched by load / k_i, whatever the others are, and node i
+// moves by the sum of what lies before it.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -123,7 +123,8 @@ TEST(RowsOfSprings, TurnedOverAreFoundHoweverStiffTheyAre) {
   }
 }
 
-/// A drive along x at the begin of the row puts its end to the targets: it stands where these are, less what the springs give.
+/// A drive along x at the begin of the row puts its end to the targets: it stands where these are, less what the
+/// springs give.
 TEST(RowsOfSprings, AreHeldByTheirDrives) {
   const Stiffnesses rows[] = {
       {3e1, 1e-6}, {7e-4, 3e3}, {6e1, 2e-4, 1e-5}, {7e6, 2e-6}, {1e-4, 1e2}};

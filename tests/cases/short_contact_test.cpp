@@ -33,8 +33,8 @@ std::string touching_strut(const std::string& name, const std::string& foot, dou
          "\nfree = " + number(strut_clearance + longer) + "\ncompression_only = true\n";
 }
 
-/// A node that is pushed along y between two struts, longer than their strut_clearance by little, and held across (z) by a spring of
-/// stiffness 1.
+/// A node that is pushed along y between two struts, longer than their strut_clearance by little, and held across (z)
+/// by a spring of stiffness 1.
 std::string node_between_struts(double stiffness, double longer) {
   return R"([[body]]
 name = "n"

@@ -1,4 +1,5 @@
-// Cables that are slack are nearly without stiffness: a net of them hardens by orders of magnitude when they become taut.
+// Cables that are slack are nearly without stiffness: a net of them hardens by orders of magnitude when they become
+// taut.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,8 +75,8 @@ std::vector<double> activations(double slack) {
 }
 
 TEST(SlackMembers, OfAnyStiffnessBecomeTautOneAfterTheOther) {
-  // Up to the first activation nothing but the slack cables and stiff springs acts: loads are proportional to the stiffness
-  // of slack cables, but for what the springs' give.
+  // Up to the first activation nothing but the slack cables and stiff springs acts: loads are proportional to the
+  // stiffness of slack cables, but for what the springs' give.
   const std::vector<double> softest = activations(1e-6);
   ASSERT_EQ(softest.size(), 6u);
   for (const double slack : {1e-3, 1e-4, 1e-5}) {

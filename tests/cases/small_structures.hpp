@@ -8,7 +8,8 @@
 
 namespace springfold::io {
 
-/// A strut of length 1 on a hinge with this spring, loaded along ["sin(e)", "-cos(e)"] as studies say: e tilts the load.
+/// A strut of length 1 on a hinge with this spring, loaded along ["sin(e)", "-cos(e)"] as studies say: e tilts the
+/// load.
 inline std::string strut_on_hinge(const std::string& spring) {
   return R"toml(
 [parameters]
@@ -27,7 +28,8 @@ elements = [
 )toml";
 }
 
-/// A flat truss of half span 1 and height 0.5; kv, a parameter of the case, is the stiffness of a vertical spring at its top.
+/// A flat truss of half span 1 and height 0.5; kv, a parameter of the case, is the stiffness of a vertical spring at
+/// its top.
 inline const std::string truss_with_vertical_spring = R"toml(
 [[node]]
 name = "l"
@@ -55,8 +57,8 @@ of = ["t", { on = "base", at = [0, 0.5] }, { on = "base", at = [1, 0.5] }]
 stiffness = "kv"
 )toml";
 
-/// The same between two equal springs that push until its top is at the height 0.2, which they leave at once. A load along
-/// ["sin(psi)", "-cos(psi)"] makes one the first.
+/// The same between two equal springs that push until its top is at the height 0.2, which they leave at once. A load
+/// along ["sin(psi)", "-cos(psi)"] makes one the first.
 inline const std::string truss_between_springs = R"toml(
 [parameters]
 psi = 0

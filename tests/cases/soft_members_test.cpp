@@ -50,8 +50,8 @@ TEST(SoftMembers, BuckleBesideStopsThatAreNotReachedHoweverStiffTheseAre) {
   }
 }
 
-/// A clamped-free beam of one segment that turns by theta at its foot: lambda (1/k + L/(3 E I)) = 1 at first order, less what
-/// the load does to the beam and its length: 1e-2 of that.
+/// A clamped-free beam of one segment that turns by theta at its foot: lambda (1/k + L/(3 E I)) = 1 at first order,
+/// less what the load does to the beam and its length: 1e-2 of that.
 TEST(SoftMembers, BuckleUnderBeamsHoweverStiffTheseAre) {
   for (const double bending : {1e4, 1e6, 1e8}) {
     const std::string beam =
@@ -75,7 +75,8 @@ TEST(SoftMembers, BuckleUnderAConstantLoadBesideStiffStops) {
   EXPECT_NEAR(buckling_load(result), 0.01, 1e-10);
 }
 
-/// A hinge of 1 under two stiff slides in a row: theta = -0.1412337 where the load (0.1, -0.3) is balanced, theta = -(0.1 cos theta
+/// A hinge of 1 under two stiff slides in a row: theta = -0.1412337 where the load (0.1, -0.3) is balanced, theta =
+/// -(0.1 cos theta
 /// - 0.3 sin theta), whatever their stiffness is.
 TEST(SoftMembers, AreDeflectedHoweverStiffTheOthersAre) {
   double theta = -0.1;
@@ -100,8 +101,8 @@ TEST(SoftMembers, AreDeflectedHoweverStiffTheOthersAre) {
   }
 }
 
-/// Two links of length 1, one on the other, pressed from above: stiffness 1 at the foot, s between them. Branch points lie at the
-/// eigenvalues of [[1 + s, -s], [-s, s]].
+/// Two links of length 1, one on the other, pressed from above: stiffness 1 at the foot, s between them. Branch points
+/// lie at the eigenvalues of [[1 + s, -s], [-s, s]].
 std::string two_links(const std::string& s, const std::string& lambda, int depth = 0,
                       const std::string& foot = "1") {
   const auto link = [](const std::string& name, const std::string& stiffness) {

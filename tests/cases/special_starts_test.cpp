@@ -90,8 +90,8 @@ TEST(StartOnALimitPoint, OfAnotherStudyIsOneOfThisStudyToo) {
   expect_both_limit_points(run(truss_with(shallow, first + then)).of("then"));
 }
 
-/// A slide under a spring of torque -u^n + u^(n+1), n even, begun at u = 0: a flat limit point, at which lambda turns at 0;
-/// the way snaps from there to u = 1, and back from the other limit point at u = n / (n + 1).
+/// A slide under a spring of torque -u^n + u^(n+1), n even, begun at u = 0: a flat limit point, at which lambda turns
+/// at 0; the way snaps from there to u = 1, and back from the other limit point at u = n / (n + 1).
 std::string slide_with(const std::string& coefficients) {
   return R"([[body]]
 name = "p"

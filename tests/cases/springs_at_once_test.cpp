@@ -1,4 +1,5 @@
-// Special points at which several springs switch at once, followed in a parameter that keeps them together, or parts them.
+// Special points at which several springs switch at once, followed in a parameter that keeps them together, or parts
+// them.
 #include <gtest/gtest.h>
 
 #include <algorithm>

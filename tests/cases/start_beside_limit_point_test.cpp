@@ -1,4 +1,5 @@
-// Special points in a second parameter do not depend on where on its path a study begins, be it just beside a limit point.
+// Special points in a second parameter do not depend on where on its path a study begins, be it just beside a limit
+// point.
 #include <gtest/gtest.h>
 
 #include <algorithm>

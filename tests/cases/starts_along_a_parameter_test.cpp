@@ -1,5 +1,5 @@
-// Starts of the values of a parameter belong to each other as far as they can be followed; paths that leave a point that is
-// followed just before it vanishes.
+// Starts of the values of a parameter belong to each other as far as they can be followed; paths that leave a point
+// that is followed just before it vanishes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,8 @@
 namespace springfold::io {
 namespace {
 
-/// An arm of length L on a spring of three slopes, the middle one of which falls, and a strut at its tip that pushes below `fr`.
+/// An arm of length L on a spring of three slopes, the middle one of which falls, and a strut at its tip that pushes
+/// below `fr`.
 std::string arm(const std::string& parameters, const std::string& study) {
   return "[parameters]\n" + parameters + R"toml(
 [[body]]
@@ -67,8 +68,8 @@ critical_load = { of = "loss_of_stability", parameter = "ka", range = [0.9912, 5
   }
 }
 
-/// Where the load acts along the arm at its start the straight path has a branch point: on one side of that direction the arm turns
-/// to its limit point, on the other one away from it.
+/// Where the load acts along the arm at its start the straight path has a branch point: on one side of that direction
+/// the arm turns to its limit point, on the other one away from it.
 TEST(Threshold, IsTheDirectionInWhichThePathLeavesItsLimitPoint) {
   const auto result = run(arm(R"toml(L = 1.3337
 psi = 5.0754
@@ -95,7 +96,8 @@ threshold = { of = "limit_point", parameter = "psi", range = [3.8754, 6.3754], v
   EXPECT_TRUE(result.doubts.empty()) << result.doubts.front();
 }
 
-/// The anchor of the strut lies sqrt(x0^2 + y0^2) = 1.80594 from the foot: there an arm of that length brings its tip to it.
+/// The anchor of the strut lies sqrt(x0^2 + y0^2) = 1.80594 from the foot: there an arm of that length brings its tip
+/// to it.
 TEST(FirstCriticalLoads, SayWhereTheLengthOfASpringComesToZero) {
   const auto result = run(arm(R"toml(L = 1.874
 psi = 2.0026
@@ -127,8 +129,9 @@ critical_load = { of = "loss_of_stability", parameter = "L", range = [1.1244, 2.
   EXPECT_GT(told, 0);
 }
 
-/// Two nodes on bars to three points and a strut between them. Where the first one folds away from the second the strut is slack,
-/// and the second one rests on its own bars, at the very length of another strut: what rounding makes of that is no event.
+/// Two nodes on bars to three points and a strut between them. Where the first one folds away from the second the strut
+/// is slack, and the second one rests on its own bars, at the very length of another strut: what rounding makes of that
+/// is no event.
 TEST(CriticalCurves, PassAStrutThatRestsElsewhere) {
   const auto ran = run(R"toml(
 [parameters]
@@ -215,8 +218,8 @@ critical_curve = { of = "LP2", parameter = "s1", range = [-0.1958, 0.0742] }
   EXPECT_NEAR(own->values[column(result, "lambda")], loads[0], 1e-10);
 }
 
-/// A point on two slides whose knees have springs beyond an angle: 15 degrees that of x, 0.1 that of y. At py = sin(15 deg) the
-/// first one touches at the start itself, where the drives are set.
+/// A point on two slides whose knees have springs beyond an angle: 15 degrees that of x, 0.1 that of y. At py = sin(15
+/// deg) the first one touches at the start itself, where the drives are set.
 std::string two_slides(
     const std::string& py, const std::string& study,
     const std::string& law = R"(law = "one_sided", stiffness = 0.05, from = "15*deg")") {

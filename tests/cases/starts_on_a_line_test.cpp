@@ -10,8 +10,9 @@ namespace springfold::io {
 namespace {
 
 TEST(StartsOnALine, AreThoseThatBalanceEveryMember) {
-  // The planar Orthoglide, its drives commanded so that it rests at (p, p): with sin(a) = p the knees' torque Kv a is balanced
-  // by the drives' springs at rho = p + cos(a) + Kv a / (cos(a) - sin(a)). Most starts of the curve are not looked for.
+  // The planar Orthoglide, its drives commanded so that it rests at (p, p): with sin(a) = p the knees' torque Kv a is
+  // balanced by the drives' springs at rho = p + cos(a) + Kv a / (cos(a) - sin(a)). Most starts of the curve are not
+  // looked for.
   const auto curve = run(R"(
 [parameters]
 Kv = 0

@@ -14,7 +14,8 @@ namespace {
 using analysis::EventKind;
 using analysis::StudyResult;
 
-/// A point held by two bars of free length zero and more, pulled along the line of its first study, then again from there.
+/// A point held by two bars of free length zero and more, pulled along the line of its first study, then again from
+/// there.
 std::string two_bars(double first, double second) {
   const std::string study =
       "body = \"n0\"\ncontrol = \"load\"\nbranches = { depth = 1 }\ndirection = [0.78, 0.63]\n"

@@ -1,5 +1,5 @@
-// Rows of sliding bodies between springs that switch: their energy is strictly convex, and under a load on the last one they
-// follow one path of straight pieces, which linear algebra gives (a linear complementarity problem per switching).
+// Rows of sliding bodies between springs that switch: their energy is strictly convex, and under a load on the last one
+// they follow one path of straight pieces, which linear algebra gives (a linear complementarity problem per switching).
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,8 @@ namespace springfold::io {
 
 using Real = long double;
 
-/// Between two bodies, or the ground (-1) and one: breaks of its elongation, and the stiffness before, between and behind them.
+/// Between two bodies, or the ground (-1) and one: breaks of its elongation, and the stiffness before, between and
+/// behind them.
 struct RowSpring {
   int from = -1, to = 0;
   std::vector<double> breaks{};
@@ -44,8 +45,8 @@ inline Real elongation(const RowSpring& s, const std::vector<Real>& x) {
          (s.from >= 0 ? x[static_cast<std::size_t>(s.from)] : Real{0});
 }
 
-/// Displacements for a load `sign` on the last body, with every spring as stiff as its segment says. Elimination without pivots
-/// of a diagonally dominant matrix, exact to a few units of rounding in every entry.
+/// Displacements for a load `sign` on the last body, with every spring as stiff as its segment says. Elimination
+/// without pivots of a diagonally dominant matrix, exact to a few units of rounding in every entry.
 inline std::vector<Real> row_rates(const Row& row, const std::vector<std::size_t>& segments,
                                    int sign) {
   const auto n = static_cast<std::size_t>(row.bodies);
@@ -143,7 +144,8 @@ inline RowPath row_path(const Row& row, int sign, Real most_load, Real most) {
   }
 }
 
-/// Springs that hardly take part in what moves: in roots of energy less than 1e-11 of the largest share. Rounding may hide them.
+/// Springs that hardly take part in what moves: in roots of energy less than 1e-11 of the largest share. Rounding may
+/// hide them.
 inline std::set<std::string> idle_springs(const Row& row, const std::vector<std::size_t>& segments,
                                           int sign) {
   const std::vector<Real> rates = row_rates(row, segments, sign);

@@ -12,8 +12,8 @@ using analysis::EventKind;
 using analysis::StudyResult;
 using testing::HasSubstr;
 
-/// The paper's planar Orthoglide with springs of stiffness kv in its knees, pushed along the diagonal from (p, p), where it is
-/// at rest. Its force is infinite where the arms lie along the diagonal's square: x = y = 1.
+/// The paper's planar Orthoglide with springs of stiffness kv in its knees, pushed along the diagonal from (p, p),
+/// where it is at rest. Its force is infinite where the arms lie along the diagonal's square: x = y = 1.
 std::string diagonal(const std::string& p, const std::string& kv, const std::string& study) {
   const auto leg = [&](const std::string& name, const std::string& axis, const std::string& turn,
                        const std::string& link) {
@@ -73,7 +73,8 @@ TEST(ALoadWithoutBound, LeavesThresholdsTheirPath) {
   EXPECT_NEAR(ran.of("s").threshold->value, 0.00317277115398, 1e-12);
 }
 
-/// Stiffness at which the limit points of the diagonal merge: F = F0 + kv G has F' = 0 where kv = -F0'/G', at most at the cusp.
+/// Stiffness at which the limit points of the diagonal merge: F = F0 + kv G has F' = 0 where kv = -F0'/G', at most at
+/// the cusp.
 double cusp_of_diagonal(double p) {
   const double cp = std::sqrt(1 - p * p), preload = std::asin(p) / (cp - p);
   const auto stiffness = [&](double x) {
@@ -107,7 +108,8 @@ TEST(ALoadWithoutBound, LeavesThresholdsTheirPathHoweverNearTheStretchedLegsAre)
   }
 }
 
-/// A bar on a slide whose spring is a law c x / (1 - x): the load is infinite at the end of its way, and no chain is stretched.
+/// A bar on a slide whose spring is a law c x / (1 - x): the load is infinite at the end of its way, and no chain is
+/// stretched.
 TEST(ALoadWithoutBound, OfALawIsToldWhereNoChainExplainsIt) {
   const auto ran = run(
       "[[body]]\nname = \"b\"\ntask_space = \"xy\"\npose = [0, 0]\n[[chain]]\nname = "

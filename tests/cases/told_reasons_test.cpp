@@ -280,8 +280,8 @@ TEST(EndOfTheReach, OfACrankIsItsDeadCentreWhereTheForceHasNoBound) {
   }
 }
 
-/// A bar of length l under a moment, 3 q - q^3 at its hinge: a limit point at q = 1. Its tip is highest at q = 1/2, as high as l,
-/// and may not rise above 1: from l = 1 on the path ends before its limit point.
+/// A bar of length l under a moment, 3 q - q^3 at its hinge: a limit point at q = 1. Its tip is highest at q = 1/2, as
+/// high as l, and may not rise above 1: from l = 1 on the path ends before its limit point.
 const std::string bar_below_a_ceiling = R"toml(
 [parameters]
 l = 0.95

@@ -1,4 +1,5 @@
-// Special points are followed through values of a parameter at which the study's start meets its own limit point and vanishes.
+// Special points are followed through values of a parameter at which the study's start meets its own limit point and
+// vanishes.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -40,7 +41,8 @@ TEST(CriticalCurve, GoesOnWhereTheStartOfThePathVanishes) {
   EXPECT_NEAR(high, 3, 1e-12);
 }
 
-/// A drive with a spring of 1 between command and carriage holds the cubic at x = -2: x^3 - 2 x - rho = b + lambda, rho = -3.
+/// A drive with a spring of 1 between command and carriage holds the cubic at x = -2: x^3 - 2 x - rho = b + lambda, rho
+/// = -3.
 TEST(CriticalCurve, GoesOnWhereTheStartVanishesUnderCommandsThatAreKept) {
   const std::string y = "{ joint = \"prismatic\", axis = \"y\", name = ",
                     drive = "role = \"actuated\", value = 0, stiffness = 1 }";
@@ -78,8 +80,8 @@ TEST(CriticalCurve, GoesOnWhereTheStartVanishesUnderCommandsThatAreKept) {
   EXPECT_NEAR(high, 6, 1e-12);
 }
 
-/// F = W + lambda = a x - x^2 has its limit point at a^2 / 4 - W. At W = 0.4 the case has no start: the curve goes on there, and that
-/// in another parameter begins at its row.
+/// F = W + lambda = a x - x^2 has its limit point at a^2 / 4 - W. At W = 0.4 the case has no start: the curve goes on
+/// there, and that in another parameter begins at its row.
 TEST(VanishingStarts, LetFurtherCurvesBeginAtRowsOfValuesThatHaveNoStart) {
   const auto ran = run(R"toml(
 [parameters]

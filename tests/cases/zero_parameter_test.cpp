@@ -8,8 +8,8 @@
 namespace springfold::io {
 namespace {
 
-/// A flat arch of four bars, EA = 100, on springs of its angles that are softer by four orders of magnitude; g is one more
-/// load where lambda acts, and along it.
+/// A flat arch of four bars, EA = 100, on springs of its angles that are softer by four orders of magnitude; g is one
+/// more load where lambda acts, and along it.
 std::string arch(double size) {
   const std::string s = std::to_string(size);
   return "[parameters]\ng = 0\n"

@@ -10,8 +10,8 @@
 namespace springfold::continuation {
 namespace {
 
-/// Energy -l x^2/2 + (m - l) y^2/2 + x^4/4 + b x^2 y^2/2 + y^4/4. The branch x^2 = l, y = 0 of the first mode is crossed by
-/// another one at x^2 = d^2 for b = 1 - m / d^2.
+/// Energy -l x^2/2 + (m - l) y^2/2 + x^4/4 + b x^2 y^2/2 + y^4/4. The branch x^2 = l, y = 0 of the first mode is
+/// crossed by another one at x^2 = d^2 for b = 1 - m / d^2.
 struct MixedModes {
   double d = 1, m = 0.01, more = 0;  ///< `more` holds y
   static Index size() { return 2; }
@@ -31,8 +31,8 @@ struct MixedModes {
   }
 };
 
-/// The same with a spring k that holds y on its positive side alone, and rests along y = 0: half of a branch leaves where each of
-/// both pieces is singular, at x^2 = d^2 and at x^2 = d^2 (m + k) / m.
+/// The same with a spring k that holds y on its positive side alone, and rests along y = 0: half of a branch leaves
+/// where each of both pieces is singular, at x^2 = d^2 and at x^2 = d^2 (m + k) / m.
 struct MixedHalves {
   double d = 1, m = 0.01, k = 0.003;
   static Index size() { return 2; }

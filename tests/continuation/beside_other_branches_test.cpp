@@ -1,5 +1,6 @@
-// Kinks just behind a branch point of a path that bends, folds of a piece on the surface where branches cross, and closed curves
-// that pass another branch: Newton's method must not be led to the neighbour, nor the neighbour be counted as the curve.
+// Kinks just behind a branch point of a path that bends, folds of a piece on the surface where branches cross, and
+// closed curves that pass another branch: Newton's method must not be led to the neighbour, nor the neighbour be
+// counted as the curve.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,8 +11,8 @@
 namespace springfold::continuation {
 namespace {
 
-/// F = D^T (F1, F2) with D = d(x, Y)/d(x, y), Y = y - m x^2: a gradient. F1 = a x + c x^2 + K [x]^+ - lambda is the path, which
-/// bends as y = m x^2; F2 = Y (Y - k (lambda + d)) has a branch that crosses it at lambda = -d.
+/// F = D^T (F1, F2) with D = d(x, Y)/d(x, y), Y = y - m x^2: a gradient. F1 = a x + c x^2 + K [x]^+ - lambda is the
+/// path, which bends as y = m x^2; F2 = Y (Y - k (lambda + d)) has a branch that crosses it at lambda = -d.
 struct BentPath {
   double a = 1, c = 0, K = 0, k = 0, d = 0, m = 0;
   static Index size() { return 2; }
@@ -69,8 +70,8 @@ TEST(Kinks, BehindABranchPointLieOnTheCurveThatReachesThem) {
       }
 }
 
-/// On x < 0 the path has its fold at the surface, where it is crossed: Y = 0 and Y = k c x^2 touch each other there. On x > 0 there
-/// are Y = 0 and Y = k lambda.
+/// On x < 0 the path has its fold at the surface, where it is crossed: Y = 0 and Y = k c x^2 touch each other there. On
+/// x > 0 there are Y = 0 and Y = k lambda.
 TEST(Rays, LeaveAFoldOnASurfaceAlongBothOfTwoBranchesThatTouch) {
   const BentPath path{0, 1.054, -3.05, -0.24, 0, 0};
   const Rays rays = rays_from(path, Vector::Zero(2), 0, {1}, {});

@@ -9,8 +9,8 @@
 namespace springfold::continuation {
 namespace {
 
-/// Gradient of sum_i (load_i - lambda) y_i^2 / 2 + sum_ij C_ij y_i^2 y_j^2 / 4 in unknowns that are mixed by a reflection. With
-/// Y = (y_1^2, y_2^2): y = 0; one y_i = 0 and C_jj Y_j = lambda - load_j; or C Y = lambda - loads.
+/// Gradient of sum_i (load_i - lambda) y_i^2 / 2 + sum_ij C_ij y_i^2 y_j^2 / 4 in unknowns that are mixed by a
+/// reflection. With Y = (y_1^2, y_2^2): y = 0; one y_i = 0 and C_jj Y_j = lambda - load_j; or C Y = lambda - loads.
 struct CoupledModes {
   double first = 0.83, apart = 0;
   Index size() const { return 3; }

@@ -8,8 +8,9 @@
 namespace springfold::continuation {
 namespace {
 
-/// Gradient of sum_i (load_i - lambda) y_i^2 / 2 + (sum_i y_i^2)^2 / 4 + sum_k (z_k - a_k(lambda))^2 (1 + k) / 2 in unknowns
-/// that are mixed by a reflection: y = 0 is a path, on which mode i vanishes at load_i. It is straight where bend = 0.
+/// Gradient of sum_i (load_i - lambda) y_i^2 / 2 + (sum_i y_i^2)^2 / 4 + sum_k (z_k - a_k(lambda))^2 (1 + k) / 2 in
+/// unknowns that are mixed by a reflection: y = 0 is a path, on which mode i vanishes at load_i. It is straight where
+/// bend = 0.
 struct ModesOnAPath {
   Vector loads{};
   double bend = 0;

@@ -5,7 +5,8 @@
 
 namespace springfold::continuation {
 
-/// F = p (p - angle l) with p = x - bend l^2 / 2, l = lambda - place: the branches p = 0 and p = angle l cross at l = 0.
+/// F = p (p - angle l) with p = x - bend l^2 / 2, l = lambda - place: the branches p = 0 and p = angle l cross at l =
+/// 0.
 struct Crossing {
   double angle = 0.01, bend = 1, place = 0;
   static Index size() { return 1; }

@@ -1,5 +1,5 @@
-// Two branches that cross under a small angle lie closer together than a step is off its tangent: the next step must go on
-// along the branch that was followed, and the crossing must be seen.
+// Two branches that cross under a small angle lie closer together than a step is off its tangent: the next step must go
+// on along the branch that was followed, and the crossing must be seen.
 #include "crossing.hpp"
 
 #include <gtest/gtest.h>

@@ -12,8 +12,8 @@
 namespace springfold::continuation {
 namespace {
 
-/// Two modes that buckle at 1 and 2 and know nothing of each other: x (1 - l + x^2) = 0, y (2 - l + y^2) = 0. From a given
-/// number of questions on it answers none.
+/// Two modes that buckle at 1 and 2 and know nothing of each other: x (1 - l + x^2) = 0, y (2 - l + y^2) = 0. From a
+/// given number of questions on it answers none.
 struct PatientModes {
   mutable long left = -1;  ///< questions that are still answered; < 0: all
   mutable long asked = 0;

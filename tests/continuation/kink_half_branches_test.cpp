@@ -143,8 +143,8 @@ TEST(HalfBranches, AreNotInventedWhereTheModeLiesInAnotherPiece) {
 }
 
 TEST(HalfBranches, AreToldOnceWherePiecesWithAndWithoutAHardlyStretchedSpringBuckleTogether) {
-  // The mode (1, 5e-4) buckles at 2 - sqrt(1 + b^2) without springs and at 1/2 more with both. With only one of them the
-  // zero is about 1e-7 beside, and its mode lies in another piece.
+  // The mode (1, 5e-4) buckles at 2 - sqrt(1 + b^2) without springs and at 1/2 more with both. With only one of them
+  // the zero is about 1e-7 beside, and its mode lies in another piece.
   const double b = -1e-3;
   const OneSidedModes problem{2, Vector{{1, 3}}, Vector::Constant(2, 0.5), b};
   const Curve curve = follow_straight(problem, {1, 1}, 2);
@@ -237,8 +237,8 @@ struct SpringsAround {
     return piece;
   }
 
-  /// Loads at which something leaves: eigenvalues of the stiffness of a cone whose eigenvector lies in it. The cones are
-  /// found by going round in small steps.
+  /// Loads at which something leaves: eigenvalues of the stiffness of a cone whose eigenvector lies in it. The cones
+  /// are found by going round in small steps.
   std::vector<double> branching_loads() const {
     std::set<Piece> seen;
     std::vector<double> loads;

@@ -7,7 +7,8 @@
 namespace springfold::continuation {
 namespace {
 
-/// One mode that buckles at the load -0.005, behind the edge, and one at 2: F = ((0.005 + lambda) x, (2 - lambda) y + y^3).
+/// One mode that buckles at the load -0.005, behind the edge, and one at 2: F = ((0.005 + lambda) x, (2 - lambda) y +
+/// y^3).
 struct EdgeModes {
   static Index size() { return 2; }
   static bool symmetric() { return true; }

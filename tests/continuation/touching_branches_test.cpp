@@ -1,4 +1,5 @@
-// Two branches of one unknown that touch, cross twice or pass, and a third one that comes near a crossing: truths in closed form.
+// Two branches of one unknown that touch, cross twice or pass, and a third one that comes near a crossing: truths in
+// closed form.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -36,8 +37,8 @@ struct Touched {
   }
 };
 
-/// Along the touched branch the determinant is -k (lambda - c)^2: small on a long way, and of one sign. Where the step's middle,
-/// or a place at which its model is compared, falls beside the touch it is a matter of rounding.
+/// Along the touched branch the determinant is -k (lambda - c)^2: small on a long way, and of one sign. Where the
+/// step's middle, or a place at which its model is compared, falls beside the touch it is a matter of rounding.
 TEST(TouchingBranches, AreSeenWhereverTheStepsEnd) {
   for (const double k : {0.24, -0.089, -0.03, 0.0145, 0.6})
     for (int place = 0; place < 60; ++place) {
@@ -117,8 +118,8 @@ struct ThreeLines {
   }
 };
 
-/// A branch that passes beside a crossing leaves a sphere around it as one that goes through it does, at a larger angle on every
-/// smaller one.
+/// A branch that passes beside a crossing leaves a sphere around it as one that goes through it does, at a larger angle
+/// on every smaller one.
 TEST(Crossings, HaveFourWaysBesideAThirdBranch) {
   for (const ThreeLines& lines :
        {ThreeLines{

@@ -8,8 +8,8 @@
 namespace springfold::continuation {
 namespace {
 
-/// Gradient of x^2 / 2 - lambda x + e(x) y^2 / 2 + y^4 / 4 + k / 2 sum (w_i - sin(i y + x))^2 with e = c prod (x - b_i),
-/// in unknowns mirrored at a plane. The straight branch y = 0 is met by others where e = 0; where the b_i are
+/// Gradient of x^2 / 2 - lambda x + e(x) y^2 / 2 + y^4 / 4 + k / 2 sum (w_i - sin(i y + x))^2 with e = c prod (x -
+/// b_i), in unknowns mirrored at a plane. The straight branch y = 0 is met by others where e = 0; where the b_i are
 /// close together, they leave it so flatly that the rounding of the springs hides which is which.
 struct FlatCrossings {
   double c = 1, k = 1;

@@ -1,5 +1,5 @@
-// Which arcs of a curve are verified: tubes never reach a neighbouring branch, simple branch points are crossed on their own
-// branch, and a curve that changed to another branch is not called verified there.
+// Which arcs of a curve are verified: tubes never reach a neighbouring branch, simple branch points are crossed on
+// their own branch, and a curve that changed to another branch is not called verified there.
 #include "springfold/continuation/verification.hpp"
 
 #include <gtest/gtest.h>

@@ -88,7 +88,8 @@ long characters_of(const std::string& line) {
                        [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
 }
 
-/// Lines of prose with more than 120 characters. Code, tables, headings, and lines that are one link or picture are none.
+/// Lines of prose with more than 120 characters. Code, tables, headings, and lines that are one link or picture are
+/// none.
 std::vector<std::string> long_lines(const fs::path& document) {
   static const std::regex no_prose{R"(\s*(\||#|<).*|\s*([-*] )?!?\[[^\]]*\]\([^)]*\)\s*)"};
   std::vector<std::string> found;

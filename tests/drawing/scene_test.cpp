@@ -127,8 +127,8 @@ TEST(Scene, ACableIsDrawnLegByLegAndAGasByItsOutline) {
   EXPECT_EQ(scene.outlines[0].corners.size(), 3U);
 }
 
-/// A wall from (4, 0) to (4, 1) that pushes what comes behind it, to the right of that way: the first tip stands 1 before
-/// it, the second one 0.5 behind.
+/// A wall from (4, 0) to (4, 1) that pushes what comes behind it, to the right of that way: the first tip stands 1
+/// before it, the second one 0.5 behind.
 TEST(Scene, AWallIsACoilToTheNearestPointOfItsLineThatShowsWhetherItActs) {
   for (const double x : {3.0, 4.5}) {
     model::Mechanism mechanism = two_links();

@@ -260,7 +260,8 @@ TEST(PlaceLabels, SayTheSameThingAtTheSamePlaceOnce) {
   EXPECT_EQ(labels[0].text.text, "LP1, LP2");
 }
 
-/// Three pairs of curves that end beside each other, as of a sweep over two parameters: long labels need lines to their ends.
+/// Three pairs of curves that end beside each other, as of a sweep over two parameters: long labels need lines to their
+/// ends.
 TEST(PlaceLabels, LeadNoLineThroughAnotherText) {
   Figure figure{.low = {-10, -100}, .high = {80, 1250}};
   const auto add = [&](const std::string& label, const Polyline& line) {

@@ -126,7 +126,8 @@ TEST_F(ImportedRobot, SaysWhatWasLeftOut) {
               Contains("joint \"elbow\" mimics \"shoulder\": here it has a drive of its own"));
 }
 
-/// A rod along x of the frame of its moments of inertia, which stands across the link: about its ends' axis there is none.
+/// A rod along x of the frame of its moments of inertia, which stands across the link: about its ends' axis there is
+/// none.
 TEST_F(ImportedRobot, HasItsMomentsOfInertiaInTheAxesOfItsLinks) {
   const std::string inertial =
       "<origin xyz=\"0.5 0 0\" rpy=\"0 0 1.5707963267948966\"/><mass value=\"3\"/>";

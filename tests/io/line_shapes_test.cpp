@@ -159,8 +159,8 @@ TEST(WithoutOverlaps, DoesNotSayThatABranchLiesOnItselfAtItsLimitPoint) {
   EXPECT_EQ(lines_in(drawn), 2u);
 }
 
-/// Twice the same curve, as of a design that changes nothing: the unstable line of one ends where the stable one of the other
-/// begins.
+/// Twice the same curve, as of a design that changes nothing: the unstable line of one ends where the stable one of the
+/// other begins.
 TEST(WithoutOverlaps, DoesNotSayThatEqualCurvesLieOnEachOtherWhereTheyLoseStability) {
   Figure figure{.low = {0, 0}, .high = {1, 1}};
   const FigureCurve curve{.parts = {{Stability::stable, {{0.1, 0.1}, {0.5, 0.8}}},

@@ -27,7 +27,8 @@ TEST(BendingBranch, OfASupercriticalBranchPointBendsTheOtherWayWhereThatBecomesS
   }
 }
 
-/// Two modes that do not know of each other, x leaves at l = mu, y at l = 1, and one more unknown that follows the load.
+/// Two modes that do not know of each other, x leaves at l = mu, y at l = 1, and one more unknown that follows the
+/// load.
 Given two_modes(double mu) {
   return {
       [=](const Vector& u, double l) {

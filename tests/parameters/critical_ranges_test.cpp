@@ -1,4 +1,5 @@
-// Ends of critical curves at the start, jumps of families beside them, and events that stand still, against closed forms.
+// Ends of critical curves at the start, jumps of families beside them, and events that stand still, against closed
+// forms.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// n bars of stiffness 1 from a circle of radius 1 to an apex; free length 1/cos(alpha); lateral springs kl at the apex; P down. n = 2 is a von Mises truss.
+/// n bars of stiffness 1 from a circle of radius 1 to an apex; free length 1/cos(alpha); lateral springs kl at the
+/// apex; P down. n = 2 is a von Mises truss.
 struct Dome {
   int n = 2;
   double alpha = 1, kl = 0;

@@ -30,7 +30,8 @@ struct Given {
   }
 };
 
-/// The same in unknowns y with x_1 = y_1, x_i = y_i - y_{i-1}: what exchanges x_i is not orthogonal in them. F_y = T^T F_x.
+/// The same in unknowns y with x_1 = y_1, x_i = y_i - y_{i-1}: what exchanges x_i is not orthogonal in them. F_y = T^T
+/// F_x.
 inline Given in_sums(const Given& of) {
   Matrix T = Matrix::Identity(of.n, of.n);
   for (Index i = 1; i < of.n; ++i) T(i, i - 1) = -1;

@@ -8,7 +8,8 @@
 namespace springfold::continuation {
 namespace {
 
-/// Two units with c x - 3 x^2 + x^3 + k (x - other) = lambda. Along x_1 = x_2 = u they part where c - 6 u + 3 u^2 + 2 k = 0.
+/// Two units with c x - 3 x^2 + x^3 + k (x - other) = lambda. Along x_1 = x_2 = u they part where c - 6 u + 3 u^2 + 2 k
+/// = 0.
 Given coupled_pair(double c, double k) {
   return {[=](const Vector& x, double lambda) {
             const auto u = x.array();
@@ -52,7 +53,8 @@ TEST(KeptSymmetries, NeedNotBeOrthogonalInTheUnknownsOfABranchPoint) {
   }
 }
 
-/// V = y^2/2 - lambda y + (y^2 - mu) x^2/2 + x^4/4 in (x, y): along y = lambda a pair of branch points at lambda^2 = mu.
+/// V = y^2/2 - lambda y + (y^2 - mu) x^2/2 + x^4/4 in (x, y): along y = lambda a pair of branch points at lambda^2 =
+/// mu.
 Given pair_of_branch_points(double mu) {
   return {[=](const Vector& u, double l) {
             return Vector{{u[0] * (u[1] * u[1] - mu + u[0] * u[0]), u[1] - l + u[1] * u[0] * u[0]}};

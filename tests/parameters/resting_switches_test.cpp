@@ -9,8 +9,8 @@
 namespace springfold::continuation {
 namespace {
 
-/// Two unknowns coupled by m, x = 0 for every load: F = [1 - l, m; m, 2 - l] x + 3 [x0]_+ e0, and cubes. Switches x0, which
-/// leaves zero by `off`, and x1.
+/// Two unknowns coupled by m, x = 0 for every load: F = [1 - l, m; m, 2 - l] x + 3 [x0]_+ e0, and cubes. Switches x0,
+/// which leaves zero by `off`, and x1.
 struct Rests {
   double m = 0, off = 0;
   Index size() const { return 2; }

@@ -23,8 +23,8 @@ double column(const StudyResult& result, const std::vector<double>& values,
   return std::nan("");
 }
 
-/// The column of cases/column-with-stop/README.md: straight up to 2 c/l, where its free side gives way. Its spring is at rest
-/// all along the straight branch.
+/// The column of cases/column-with-stop/README.md: straight up to 2 c/l, where its free side gives way. Its spring is
+/// at rest all along the straight branch.
 TEST(CornerGraph, OfAColumnWithASpringAtRestHandsOverToTheFreeSideOnly) {
   io::Case c = case_of("column-with-stop/case.toml");
   io::PlannedRun& planned = c.runs.at(0);
@@ -47,8 +47,8 @@ TEST(CornerGraph, OfAColumnWithASpringAtRestHandsOverToTheFreeSideOnly) {
   EXPECT_NEAR(report.states[1].low, 2, 1e-3);
 }
 
-/// Its sprung side: P = 2 c t/(l sin t) + (k l/2) cos t falls to 3.0954 c/l at t = 1.369 and rises from there. No jump leads
-/// to it, and at its loads no state that is reached lies within the limits.
+/// Its sprung side: P = 2 c t/(l sin t) + (k l/2) cos t falls to 3.0954 c/l at t = 1.369 and rises from there. No jump
+/// leads to it, and at its loads no state that is reached lies within the limits.
 TEST(CornerGraph, OfAColumnWithASpringAtRestFindsTheSprungStateToWhichNoJumpLeads) {
   io::Case c = case_of("column-with-stop/case.toml");
   io::PlannedRun& planned = c.runs.at(0);
@@ -84,8 +84,8 @@ TEST(CornerGraph, AJumpFromACornerSwitchesTheSpringThatItLeaves) {
   EXPECT_EQ(from_corner, 1);
 }
 
-/// A shallow truss (span 200, height 20, bars of stiffness 50) above a stop at y = -10. Snapped, it rests on the stop; the
-/// load falls until it lifts off, where the truss without a stop is unstable and snaps back.
+/// A shallow truss (span 200, height 20, bars of stiffness 50) above a stop at y = -10. Snapped, it rests on the stop;
+/// the load falls until it lifts off, where the truss without a stop is unstable and snaps back.
 using StopGraph = io::CaseFiles;
 
 TEST_F(StopGraph, JumpsFromTheCornerWhereAStateLetsGoOfItsStop) {

@@ -129,9 +129,9 @@ TEST(Flow, OverdampedMotionDissipatesWhatIsReleased) {
   EXPECT_NEAR(stiff.dissipated, released, 1e-6 * released);
 }
 
-/// With relative dampers c dw_i/dt and masses at the middle and the top node. Dampings well on either side of where the answer
-/// changes; a fourth-order Runge-Kutta integration of the same two equations of motion, written apart from this program,
-/// gives the same four answers.
+/// With relative dampers c dw_i/dt and masses at the middle and the top node. Dampings well on either side of where the
+/// answer changes; a fourth-order Runge-Kutta integration of the same two equations of motion, written apart from this
+/// program, gives the same four answers.
 TEST(Flow, MassesAndDampingDecideWhetherTheSecondTrussSnaps) {
   const auto trusses = trusses_in_series({45 * degree, 46 * degree});
   const Landscape landscape = landscape_of(trusses, fold_45);

@@ -14,8 +14,8 @@ namespace {
 
 using LegWarnings = io::CaseFiles;
 
-/// One leg: a driven slide along x and a link of length 1, whose hinge has the torque f(u), u counted from the dead point
-/// where the link stands across the slide. The load pushes the link's end.
+/// One leg: a driven slide along x and a link of length 1, whose hinge has the torque f(u), u counted from the dead
+/// point where the link stands across the slide. The load pushes the link's end.
 std::string leg(const std::string& torque, const std::string& angle, const std::string& direction) {
   return "[parameters]\nstart = \"" + angle + R"toml("
 

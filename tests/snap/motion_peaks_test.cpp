@@ -17,8 +17,8 @@ std::string slowed_truss(double damping) {
                       "\"damper.along\" = " + std::to_string(damping));
 }
 
-/// The damper's force is its constant times the speed, and both are largest at one moment. No bar is pressed as hard: less
-/// than by its own shortening to the half span, sqrt(2) - 1.
+/// The damper's force is its constant times the speed, and both are largest at one moment. No bar is pressed as hard:
+/// less than by its own shortening to the half span, sqrt(2) - 1.
 TEST_F(MotionPeaks, OfADampersForceAreThoseOfTheSpeed) {
   constexpr double damping = 1.5;
   const io::Case c = load(slowed_truss(damping));

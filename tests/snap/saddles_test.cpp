@@ -1,4 +1,5 @@
-// Saddles between minima: strings that are relaxed, and coordinates that are driven. Published numbers and closed forms.
+// Saddles between minima: strings that are relaxed, and coordinates that are driven. Published numbers and closed
+// forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +17,8 @@ using test::degree;
 using test::EnergyProblem;
 using test::landscape_of;
 
-/// Mueller, Brown, "Location of saddle points and minimum energy paths by a constrained simplex optimization procedure",
-/// Theor. Chim. Acta 53 (1979): three minima and two saddles between the outer ones.
+/// Mueller, Brown, "Location of saddle points and minimum energy paths by a constrained simplex optimization
+/// procedure", Theor. Chim. Acta 53 (1979): three minima and two saddles between the outer ones.
 EnergyProblem mueller_brown() {
   struct Term {
     double A, a, b, c, x, y;

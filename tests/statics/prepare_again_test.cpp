@@ -165,7 +165,8 @@ TEST(Neighbours, AnExactExpectationNeedsNewFactorsUnlessNeighboursEncloseIt) {
   EXPECT_EQ(enclosed.z, alone.z);
 }
 
-/// Springs of no free length in a row along x: a stiff one from x = 1 to the first point, a soft one between the points.
+/// Springs of no free length in a row along x: a stiff one from x = 1 to the first point, a soft one between the
+/// points.
 model::Mechanism stiff_and_soft(double soft) {
   model::Mechanism m;
   for (const char* name : {"a", "b"})

@@ -117,8 +117,8 @@ struct DesignReport {
 /// "design.met", "design.verified", "design.limits.Kv", ...
 std::vector<std::string> design_quantities(const DesignSettings& settings);
 
-/// One of them; nothing if there is none of this name. `met` and `verified` are 1 or 0; `limits` is 1 where a requirement
-/// or an upper bound decides, -1 for a lower bound, 0 where neither does.
+/// One of them; nothing if there is none of this name. `met` and `verified` are 1 or 0; `limits` is 1 where a
+/// requirement or an upper bound decides, -1 for a lower bound, 0 where neither does.
 std::optional<double> design_value(const DesignReport& report, std::string_view name);
 
 }  // namespace springfold::analysis

@@ -139,10 +139,9 @@ struct StepNote {
   std::string reason{};  ///< in words: why it was refused or cut
 };
 
-/// One connected curve, from its backward end (first row) to its forward end (last row). A branch
-/// through a start point runs both ways from it; one that begins at a special point has it as its
-/// first row.
-/// How much of a branch is shown to be one curve, by the test of every arc between its points (TraceSettings::verify_arcs).
+/// One connected curve, from its backward end (first row) to its forward end (last row). A branch through a start point
+/// runs both ways from it; one that begins at a special point has it as its first row. How much of a branch is shown to
+/// be one curve, by the test of every arc between its points (TraceSettings::verify_arcs).
 struct VerifiedArcs {
   /// Arc lengths [-], negative behind the start.
   struct Stretch {

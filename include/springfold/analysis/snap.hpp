@@ -72,8 +72,8 @@ struct InertialMotion {
   double dissipated = std::numeric_limits<double>::quiet_NaN();  ///< work of the dampers [energy]
   double closure = 0;   ///< largest gap of the closures on the way [-]
   double followed = 0;  ///< time from the push to where the integration ended [time]
-  /// Where it swings on: the energy above that of the landing by then, and the duration that it would have as its energy
-  /// falls there.
+  /// Where it swings on: the energy above that of the landing by then, and the duration that it would have as its
+  /// energy falls there.
   double left = std::numeric_limits<double>::quiet_NaN();
   double would_last = std::numeric_limits<double>::quiet_NaN();
 };
@@ -230,8 +230,8 @@ struct TransitionReport {
   std::vector<Unjoined> unjoined{};
   std::vector<Escape> escapes{};  ///< of each state that a saddle was found beside
   bool limit_reached = false;     ///< ended because so many were found
-  /// Loads do work in whole turns: states are counted once for all turns, barriers are those beside each, and lowest ways
-  /// over several saddles are not given.
+  /// Loads do work in whole turns: states are counted once for all turns, barriers are those beside each, and lowest
+  /// ways over several saddles are not given.
   bool energy_counts_turns = false;
   bool is_closed = false;  ///< every end of a stretch within the range leads to states of the list
   enum class Memory {

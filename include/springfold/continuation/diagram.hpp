@@ -20,8 +20,8 @@ struct DiagramOptions {
   /// Why the ways out of a special point are not searched for, in words; empty: they are. A point that
   /// is left out so is passed along the curve that meets it, and is a doubt.
   std::function<std::string(const CurvePoint&)> left_out{};
-  /// Why a curve that leaves this start or special point along the point's tangent ends right there, in words; empty: it
-  /// goes on. For points on the edge of the range that is wanted: a stopping event is not met where a curve begins.
+  /// Why a curve that leaves this start or special point along the point's tangent ends right there, in words; empty:
+  /// it goes on. For points on the edge of the range that is wanted: a stopping event is not met where a curve begins.
   std::function<std::string(const CurvePoint&)> ends_at{};
   /// Is this special point outside of the range that is wanted? It is then no junction, and the branch goes no farther.
   std::function<bool(const CurvePoint&)> outside{};
@@ -35,8 +35,8 @@ struct Way {
   CurvePoint point{};  ///< the special point with the way's outward tangent and its piece
   CurvePoint start{};  ///< where a trace along it may begin
   int branch = -1;     ///< which branch runs along it; -1: none was traced
-  /// Farther out than the first switching surface, on the smooth continuation of the piece, where that surface lies just
-  /// beside the point.
+  /// Farther out than the first switching surface, on the smooth continuation of the piece, where that surface lies
+  /// just beside the point.
   std::optional<CurvePoint> beyond{};
 };
 
@@ -50,8 +50,8 @@ struct Junction {
   bool complete = true;  ///< false: ways may be missing; `why` says what went wrong
   std::string why{};
   int start = -1;  ///< the caller's start that is this point
-  /// Arc length within which other special points belong to this junction; 0: none does. Modes that vanish close together are
-  /// branch points of their own on the curve, and one junction, at the first of them.
+  /// Arc length within which other special points belong to this junction; 0: none does. Modes that vanish close
+  /// together are branch points of their own on the curve, and one junction, at the first of them.
   double reach = 0;
 };
 

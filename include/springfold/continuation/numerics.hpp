@@ -17,17 +17,18 @@ namespace springfold::continuation {
 // What does rounding leave?
 /// A correction shorter than this would be taken back by the next one; a direction that is shorter has no length.
 inline constexpr double refined_step = 50 * rounding_unit;
-/// Corrected points have some hundred units of rounding themselves: a model of the curve that is off by no more is exact, and
-/// a rate below it has no sign.
+/// Corrected points have some hundred units of rounding themselves: a model of the curve that is off by no more is
+/// exact, and a rate below it has no sign.
 inline constexpr double exact_model = 500 * rounding_unit;
-/// What the corrector leaves of an equation of size one. Iterations settle to it, values of functions at corrected points are
-/// rounding below it.
+/// What the corrector leaves of an equation of size one. Iterations settle to it, values of functions at corrected
+/// points are rounding below it.
 inline constexpr double residual_level = NewtonOptions{}.residual_tolerance;
 /// What is measured at a few places may be this many times larger between them.
 inline constexpr double between_samples = 10;
 /// What residuals at their tolerance leave of a function along the curve, of its size.
 inline constexpr double function_noise = between_samples * residual_level;
-/// A double zero lies where its function is rounding over a way of about this length, the square root of the rounding unit.
+/// A double zero lies where its function is rounding over a way of about this length, the square root of the rounding
+/// unit.
 inline constexpr double root_of_rounding = 1e-8;
 /// Is this error one that rounding leaves on a curve of this size?
 inline bool is_exact(double error, double size) {
@@ -67,14 +68,16 @@ bool settles(int most, const Step& step) {
 inline constexpr double promised_place = 1e-10;
 /// Along one curve nothing nearer than this is told apart: two places as good as promised, with room.
 inline constexpr double one_place = 10 * promised_place;
-/// Points that are nearer are one point: corrected on their own, beside singular points, they differ by some roots of rounding.
+/// Points that are nearer are one point: corrected on their own, beside singular points, they differ by some roots of
+/// rounding.
 inline constexpr double same_point = 1e-7;
 /// Where rounding places a point worse than this, it is not resolved; and steps are not shortened below it.
 inline constexpr double poor = 1e-6;
 /// Zeros within this are examined as one point first: ten that rounding places poorly fit in.
 inline constexpr double together = 10 * poor;
-/// Special points that are nearer to each other than this arc length need not be told apart. A way that begins nearer to its
-/// junction leads there as the reduced equation says, which was followed into the point; a trace may be lost in rounding.
+/// Special points that are nearer to each other than this arc length need not be told apart. A way that begins nearer
+/// to its junction leads there as the reduced equation says, which was followed into the point; a trace may be lost in
+/// rounding.
 inline constexpr double told_apart = 1e-4;
 /// Around a branch point corrected points are less exact: to both sides of a stretch that need not be told apart.
 inline constexpr double blurred = 2 * told_apart;
@@ -88,22 +91,25 @@ inline constexpr double one_direction = 1e-6;
 inline bool is_one_line(double cosine) {
   return std::abs(cosine) > 1 - one_direction * one_direction;
 }
-/// The same of a way and the direction in which a curve arrives at a singular point, where its tangent is known only roughly.
+/// The same of a way and the direction in which a curve arrives at a singular point, where its tangent is known only
+/// roughly.
 inline constexpr double nearly_same_line = 1e-3;
 
 // Is it level?
-/// Rates along a unit tangent below this, of lambda or of a switch, are zero: tangents are as exact as points near double
-/// zeros are.
+/// Rates along a unit tangent below this, of lambda or of a switch, are zero: tangents are as exact as points near
+/// double zeros are.
 inline constexpr double flat_rate = root_of_rounding;
-/// Arc length over which lambda must stand still to be a family beyond a kink: an inflection that is flat to 1e-12 on it
-/// would need a third derivative of lambda below 1e-5.
+/// Arc length over which lambda must stand still to be a family beyond a kink: an inflection that is flat to 1e-12 on
+/// it would need a third derivative of lambda below 1e-5.
 inline constexpr double level_reach = 1e-2;
 
 // Which rank?
-/// Singular values below this share vanish at points that are located as promised, with two orders to spare. At points that
-/// may be placed poorly the share is `poor`, and a piece whose tangent is wanted to `one_place` is regular from there.
+/// Singular values below this share vanish at points that are located as promised, with two orders to spare. At points
+/// that may be placed poorly the share is `poor`, and a piece whose tangent is wanted to `one_place` is regular from
+/// there.
 inline constexpr double located_rank = 100 * promised_place;
-/// How many singular values of a matrix with entries of size 1 vanish? They are descending; a gap parts them from the others.
+/// How many singular values of a matrix with entries of size 1 vanish? They are descending; a gap parts them from the
+/// others.
 inline Index vanishing_values(const Vector& values, double share = poor) {
   constexpr double gap = 30;
   for (Index i = 0; i < values.size(); ++i)
@@ -113,7 +119,8 @@ inline Index vanishing_values(const Vector& values, double share = poor) {
 }
 
 // How far may a model be believed?
-/// Shares of a whole: one that does not decide, one that hardly counts, one that does not count even where much is unknown.
+/// Shares of a whole: one that does not decide, one that hardly counts, one that does not count even where much is
+/// unknown.
 inline constexpr double small_share = 0.1, negligible_share = 0.01, tiny_share = 0.001;
 /// Shares of a step or of a radius: so far something may be off and still be near; so far away is aside.
 inline constexpr double near_share = 0.3, aside_share = 0.2;

@@ -70,7 +70,8 @@ concept ProblemWithSecondDerivatives = requires(const P& problem, const Vector& 
   problem.second_along(x, lambda, piece, w, w, v);
 };
 
-/// How the arc length measures lambda: as it is up to `linear` from `centre`, beyond in parts of its distance from there,
+/// How the arc length measures lambda: as it is up to `linear` from `centre`, beyond in parts of its distance from
+/// there,
 ///
 ///     lambda = centre + linear sinh((mu - centre) / linear),   mu enters the arc length.
 ///

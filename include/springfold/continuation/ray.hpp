@@ -17,8 +17,8 @@ struct Ray {
   /// Where the piece is singular at the point itself: the first point of the curve beyond it, before
   /// the next switching surface, with its own tangent; s is the distance. trace() goes on from there.
   std::optional<CurvePoint> start{};
-  /// Where the next switching surface lies just beside such a point: a point farther out, on the smooth continuation of the
-  /// piece, from which the curve in front of the surface is told. trace() then begins at the point itself.
+  /// Where the next switching surface lies just beside such a point: a point farther out, on the smooth continuation of
+  /// the piece, from which the curve in front of the surface is told. trace() then begins at the point itself.
   std::optional<CurvePoint> beyond{};
 };
 

@@ -44,10 +44,10 @@ struct SearchResult {
 ///
 ///     G(x) = M(x) F(x),   M(x) = prod_i (1 / |x - x_i|^power + shift),
 ///
-/// x_i the known and the found solutions, from which it is driven away (Farrell, Birkisson, Funke
-/// 2015). Its step is the step of F times a number, so that it costs nothing. It is damped by the
-/// natural monotonicity test (Deuflhard 2004), and tried once more undamped. From each start the search is repeated until it leads
-/// nowhere. Each solution is then brought to the residual tolerance without deflation.
+/// x_i the known and the found solutions, from which it is driven away (Farrell, Birkisson, Funke 2015). Its step is
+/// the step of F times a number, so that it costs nothing. It is damped by the natural monotonicity test (Deuflhard
+/// 2004), and tried once more undamped. From each start the search is repeated until it leads nowhere. Each solution is
+/// then brought to the residual tolerance without deflation.
 ///
 /// Piecewise-smooth problems: iterates take the piece that the signs of their switches name
 /// (semismooth Newton); a solution counts only if it lies on its piece. One with a switch at zero

@@ -14,14 +14,14 @@ Curve trace_with_middles(ProblemView problem, const Vector& x, double lambda, co
                          const std::vector<Event>& events, const TraceOptions& options,
                          const StepObserver& observer, std::vector<CurvePoint>& middles);
 
-/// points_between() that need not look for points which are known. @param middles  in the order of s; those of other steps
-/// are left alone
+/// points_between() that need not look for points which are known. @param middles in the order of s; those of other
+/// steps are left alone
 Between points_between(ProblemView problem, const Curve& curve,
                        const std::vector<CurvePoint>& middles, double spacing,
                        const TraceOptions& options);
 
-/// The start of a curve, if a step from -> to of another stretch of it passes it again in the direction in which the curve
-/// left it. Given with the tangent and the arc length of this passage.
+/// The start of a curve, if a step from -> to of another stretch of it passes it again in the direction in which the
+/// curve left it. Given with the tangent and the arc length of this passage.
 std::optional<CurvePoint> start_again(ProblemView problem, const TraceOptions& options,
                                       const CurvePoint& start, const CurvePoint& from,
                                       const CurvePoint& to);

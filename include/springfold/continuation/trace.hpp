@@ -16,8 +16,8 @@ namespace springfold::continuation {
 /// be resolved may be taken back afterwards: the curve that is returned says which ones stand.
 using StepObserver = std::function<bool(const CurvePoint&)>;
 
-/// Called for every special point of a smooth piece before the curve goes on; returning false ends it there (joined). Kinks,
-/// corners and what stays unresolved are not told: they stand in the curve's hits.
+/// Called for every special point of a smooth piece before the curve goes on; returning false ends it there (joined).
+/// Kinks, corners and what stays unresolved are not told: they stand in the curve's hits.
 using HitObserver = std::function<bool(const Hit&)>;
 
 /// Follows the curve from (x, lambda) along `start`. Special points (limit points, branch points,

@@ -6,8 +6,8 @@
 
 namespace springfold {
 
-/// Arnoldi's method from a fixed, irregular vector: an orthonormal basis of it and of its images one after the other, and
-/// what the map does in that basis.
+/// Arnoldi's method from a fixed, irregular vector: an orthonormal basis of it and of its images one after the other,
+/// and what the map does in that basis.
 class Arnoldi {
  public:
   static constexpr Index most_steps = 16;
@@ -31,7 +31,8 @@ class Arnoldi {
   Index size_ = 0, steps_ = 0;
 };
 
-/// Largest magnitude of an eigenvalue of a map, as Arnoldi's method shows it: what is small needs to be known only roughly.
+/// Largest magnitude of an eigenvalue of a map, as Arnoldi's method shows it: what is small needs to be known only
+/// roughly.
 /// @param put_image  bool(v, Vector& image); @returns infinity when it returns false
 template <class PutImage>
 double largest_eigenvalue(Arnoldi& arnoldi, Index n, const PutImage& put_image) {

@@ -17,10 +17,10 @@ namespace springfold {
 ///     | dF/dx    dF/dlambda |
 ///     | row^T    corner     |,     (n + 1) x (n + 1).
 ///
-/// A symmetric dF/dx is factorised as L D L^T without its borders, pivots that are nearly zero delayed: the same factors
-/// give the number of negative eigenvalues, and with every last row that is asked for (of the corrector, of the
-/// tangent, of the test functions) solutions, also where dF/dx is singular. A structured dF/dx does the same its own way.
-/// Other matrices are factorised as L U with their last row, again only where that is another one.
+/// A symmetric dF/dx is factorised as L D L^T without its borders, pivots that are nearly zero delayed: the same
+/// factors give the number of negative eigenvalues, and with every last row that is asked for (of the corrector, of the
+/// tangent, of the test functions) solutions, also where dF/dx is singular. A structured dF/dx does the same its own
+/// way. Other matrices are factorised as L U with their last row, again only where that is another one.
 class BorderedFactors {
  public:
   BorderedFactors() {}  // most of the storage is never touched
@@ -38,7 +38,8 @@ class BorderedFactors {
   /// @returns false when a structured matrix turns out singular
   bool solve(double* x);
 
-  /// The solution for (0, 1), which is a multiple of the tangent, into the n + 1 numbers x. @pre and return value as above
+  /// The solution for (0, 1), which is a multiple of the tangent, into the n + 1 numbers x. @pre and return value as
+  /// above
   bool solve_for_tangent(double* x);
 
   /// Columns of the inverse of the bordered matrix that belong to some of its rows; of a dF/dx with entries.

@@ -1,5 +1,5 @@
-// Decompositions of dense matrices of any size. Eigen makes the code of each anew in every file that names one, which takes
-// the compiler up to half a minute; here each is compiled once. Results are those of Eigen, bit by bit.
+// Decompositions of dense matrices of any size. Eigen makes the code of each anew in every file that names one, which
+// takes the compiler up to half a minute; here each is compiled once. Results are those of Eigen, bit by bit.
 #pragma once
 
 #include <Eigen/LU>
@@ -99,7 +99,8 @@ Vector symmetric_eigenvalues(const Matrix& A);
 /// Of the symmetric part of the matrix of one body: 2, 3 or 6 rows take no memory from the heap but the result.
 Vector body_eigenvalues(const Matrix& A);
 
-/// Ascending lambda with A v = lambda B v for symmetric A and positive definite B, of which the lower triangles are read.
+/// Ascending lambda with A v = lambda B v for symmetric A and positive definite B, of which the lower triangles are
+/// read.
 Vector eigenvalues_of_pair(const Matrix& A, const Matrix& B);
 
 /// Of any square matrix, in no particular order.

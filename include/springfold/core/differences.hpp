@@ -26,9 +26,9 @@ struct GridDerivative {
   double expected_error = 0;
 };
 
-/// The same by the polynomial of degree seven through the eight multiples k h around p (four on each side): for functions
-/// that are dear where they have not been asked before. Neighbouring p ask for the same places. @param h  a power of two,
-/// so that the places are the same numbers
+/// The same by the polynomial of degree seven through the eight multiples k h around p (four on each side): for
+/// functions that are dear where they have not been asked before. Neighbouring p ask for the same places. @param h a
+/// power of two, so that the places are the same numbers
 /// @param enough  the inner four, or six, places are taken where their doubt is less than this, of max(1, value)
 /// @returns nothing when f has no value at one of them
 std::optional<GridDerivative> grid_derivative(const std::function<std::optional<Vector>(double)>& f,

@@ -14,8 +14,8 @@ namespace springfold {
 ///     E = | dF/dx            dF/dlambda |
 ///         | (w tau.dx)^T     tau.dl     |,     (n + 1) x (n + 1):
 ///
-/// regular at limit points, singular exactly at branch points; its corank is theirs. Without its last row it is the curve's
-/// extended Jacobian.
+/// regular at limit points, singular exactly at branch points; its corank is theirs. Without its last row it is the
+/// curve's extended Jacobian.
 struct ExtendedMatrix {
   Matrix dense{};        ///< empty where dF/dx is structured
   Linearisation at{};    ///< then this and the last row
@@ -77,8 +77,8 @@ bool kernel_borders(const ExtendedMatrix& E, Index m, Borders& borders);
 /// A structured E has them by inverse iteration with bordered matrices.
 Borders borders_of(const ExtendedMatrix& E, Index m);
 
-/// borders_of(E, 1) to some digits, as rates of the smallest singular value need them: by inverse iteration, at a fraction of
-/// the cost.
+/// borders_of(E, 1) to some digits, as rates of the smallest singular value need them: by inverse iteration, at a
+/// fraction of the cost.
 Borders weakest_borders(const ExtendedMatrix& E);
 
 /// Of any matrix of entries, in descending order.

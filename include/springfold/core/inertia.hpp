@@ -15,9 +15,9 @@ struct Inertia {
   friend bool operator==(const Inertia&, const Inertia&) = default;
 };
 
-/// Inertia of the symmetric matrix A (its lower triangle is read), by Bunch-Kaufman with 2x2 pivots
-/// (LAPACK dsytrf; up to 128 rows the same on the stack) and Sylvester's law, after rows and columns have been brought to one size. A pivot
-/// block's eigenvalue counts as zero when it is below zero_tolerance * (largest pivot eigenvalue).
+/// Inertia of the symmetric matrix A (its lower triangle is read), by Bunch-Kaufman with 2x2 pivots (LAPACK dsytrf; up
+/// to 128 rows the same on the stack) and Sylvester's law, after rows and columns have been brought to one size. A
+/// pivot block's eigenvalue counts as zero when it is below zero_tolerance * (largest pivot eigenvalue).
 /// @returns nothing when A holds a value that is not finite
 std::optional<Inertia> inertia_of(const Eigen::Ref<const Matrix>& A, double zero_tolerance = 1e-13);
 

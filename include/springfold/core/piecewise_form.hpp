@@ -44,7 +44,8 @@ inline constexpr Index most_cones = 12;
 /// @returns nothing where there is none, or the cone is narrower than 1e-9
 std::optional<Vector> inside_cone(const Matrix& rows);
 
-/// Are the rows independent of each other, those aside that are zero? Then inside_cone finds a vector whatever their signs are.
+/// Are the rows independent of each other, those aside that are zero? Then inside_cone finds a vector whatever their
+/// signs are.
 bool all_cones_have_room(const Matrix& rows);
 
 /// Does rows v >= 0 hold only where rows v = 0 (Stiemke 1915)? Then the cone is a subspace, perhaps {0}.

@@ -8,8 +8,8 @@
 namespace springfold {
 
 /// A^T P = Q R with column pivots, by Householder's reflections. Where the rows of A are independent it gives what
-/// kernel_of(A), least_squares(A, b) and least_squares(A^T, g) give, each of which factorises anew. Of rows of which some
-/// are known to depend on the others, those with the smallest pivots are left out.
+/// kernel_of(A), least_squares(A, b) and least_squares(A^T, g) give, each of which factorises anew. Of rows of which
+/// some are known to depend on the others, those with the smallest pivots are left out.
 class RowQr {
  public:
   RowQr() = default;

@@ -53,8 +53,8 @@ std::array<double, count> half_decades() {
   return shares;
 }
 
-/// Entry of a fixed vector without symmetry, one of many: a wave whose length changes along it, so that neither smooth nor
-/// rough vectors are orthogonal to it.
+/// Entry of a fixed vector without symmetry, one of many: a wave whose length changes along it, so that neither smooth
+/// nor rough vectors are orthogonal to it.
 inline double irregular(std::ptrdiff_t entry, std::ptrdiff_t vector) {
   const auto i = static_cast<double>(entry + 1), k = static_cast<double>(vector + 1);
   return std::cos(std::numbers::phi * i * i + std::numbers::sqrt2 * i * k + k);

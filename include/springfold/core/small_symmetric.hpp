@@ -45,10 +45,10 @@ class SmallSymmetric {
   /// Replaces the columns of X (size() rows) by A^-1 X. @pre nothing is delayed, no value is zero
   void solve(Matrix& X) const;
 
-  // Solutions with borders, for `width` columns side by side: row i of them are the width numbers from
-  // x + i * width on, or from y + i * width in the order of the pivots. y is aligned to 16 bytes and has room for `padded`
-  // rows; with width 1 the four numbers behind its last row must be zero, as forward() leaves them. Widths: 1 and 4,
-  // forward() also 2.
+  // Solutions with borders, for `width` columns side by side: row i of them are the width numbers from x + i * width
+  // on, or from y + i * width in the order of the pivots. y is aligned to 16 bytes and has room for `padded` rows; with
+  // width 1 the four numbers behind its last row must be zero, as forward() leaves them. Widths: 1 and 4, forward()
+  // also 2.
   static constexpr Index padded = largest + 4;
   template <int width>
   void forward(const double* x, double* y) const;  ///< y = L^-1 P S x; the last rows go with R

@@ -12,9 +12,9 @@
 
 namespace springfold {
 
-/// A matrix J, n x n, known by what can be done with it. The functions may work in storage that they share with all copies:
-/// one thread may ask at a time. They take no memory from the heap if they capture no more than a pointer, and what they
-/// need is kept by `owner`.
+/// A matrix J, n x n, known by what can be done with it. The functions may work in storage that they share with all
+/// copies: one thread may ask at a time. They take no memory from the heap if they capture no more than a pointer, and
+/// what they need is kept by `owner`.
 struct StructuredMatrix {
   double largest = 0;  ///< size of the largest entries, at least roughly
   /// J v; neither of the vectors is the other one.

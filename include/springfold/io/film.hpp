@@ -26,10 +26,10 @@ struct FilmOutcome {
   bool has_start = true;  ///< false: the study has no first equilibrium
 };
 
-/// Of one branch of the result. A way has its frames at even arc length: each is the row that is nearest,
-/// and special points are among them. Nothing is put between rows. A mode is the motion along the branch at
-/// a limit point, or along a null vector at a branch point, to and fro and enlarged, linear in the places of all points. A jump has the moments that the result
-/// has, and its energy over the length of way beside it.
+/// Of one branch of the result. A way has its frames at even arc length: each is the row that is nearest, and special
+/// points are among them. Nothing is put between rows. A mode is the motion along the branch at a limit point, or along
+/// a null vector at a branch point, to and fro and enlarged, linear in the places of all points. A jump has the moments
+/// that the result has, and its energy over the length of way beside it.
 FilmOutcome film_of(const PlannedRun& planned, const analysis::StudyResult& result,
                     const UnitLabels& units, const FilmWish& wish);
 

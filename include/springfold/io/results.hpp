@@ -56,8 +56,8 @@ struct Deadline {
 /// a temporary name first, then renamed; returns the files written.
 /// @param state  what the manifest says at the end: being_written if figures follow
 /// @param with_report  write report.html too; needs has_report()
-/// @param deadline  once it is over, tables of branches that are not written yet are left out, the largest first, and the
-///                  report; the manifest calls them pending. nullptr: all is written
+/// @param deadline  once it is over, tables of branches that are not written yet are left out, the largest first, and
+///                  the report; the manifest calls them pending. nullptr: all is written
 /// @throws std::filesystem::filesystem_error or std::runtime_error when something cannot be written
 std::vector<std::filesystem::path> write_results(const std::filesystem::path& folder,
                                                  const Case& the_case,

@@ -107,8 +107,8 @@ struct Body {
   Vector pose{};
   double mass = 0;                             ///< weight = mass * gravity acts at `centre`
   Vec3<double> centre = Vec3<double>::Zero();  ///< centre of mass in the body's frame [length]
-  /// Moments of inertia about the centre of mass, in the body's axes [mass length^2]; of planar bodies that about z counts
-  /// alone. Of bodies that turn; statics does not ask for them.
+  /// Moments of inertia about the centre of mass, in the body's axes [mass length^2]; of planar bodies that about z
+  /// counts alone. Of bodies that turn; statics does not ask for them.
   Mat3<double> inertia = Mat3<double>::Zero();
 };
 
@@ -205,8 +205,8 @@ struct Mechanism {
   std::vector<ShapeSpring> shape_springs{};
 };
 
-/// What is wrong with moments of inertia; empty when a rigid body can have them: symmetric, none negative, and each of the
-/// principal ones at most the sum of both others.
+/// What is wrong with moments of inertia; empty when a rigid body can have them: symmetric, none negative, and each of
+/// the principal ones at most the sum of both others.
 std::string problem_in_inertia(const Mat3<double>& inertia);
 
 /// Every rule that the mechanism breaks, as sentences; empty when usable.

@@ -72,8 +72,8 @@ using SpringCurve =
 template <class S>
 Jet<S> torque_of(const SpringCurve& curve, const S& c);
 
-/// Energy at c, zero at u = 0 (at the first contact). Of a formula: by quadrature to rounding; with complex c to the first
-/// order in its imaginary part.
+/// Energy at c, zero at u = 0 (at the first contact). Of a formula: by quadrature to rounding; with complex c to the
+/// first order in its imaginary part.
 template <class S>
 S energy_of(const SpringCurve& curve, const S& c);
 

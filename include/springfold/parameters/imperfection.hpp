@@ -32,18 +32,19 @@ struct ReducedForm {
 std::optional<ReducedForm> reduced_form(const Family& family, const CriticalStart& start,
                                         const Direction& tangent);
 
-/// Is this the form of a symmetric branch point of one mode, lambda - lambda0 = -G/(6 B) xi^2 on the branch that leaves?
+/// Is this the form of a symmetric branch point of one mode, lambda - lambda0 = -G/(6 B) xi^2 on the branch that
+/// leaves?
 bool is_symmetric_point(const ReducedForm& form);
 
 /// gamma = W^T dF/dm by six-point differences; nothing outside the domain. @param start  as above
 std::optional<Vector> imperfection_part(const Family& family, const CriticalStart& start,
                                         const ReducedForm& form);
 
-/// Where a parameter keeps a branch point to first order it may break it to second order: an imperfection of the square of
-/// the parameter, whose load is - F_mm of what must act on the modes so that the branch point stays one, halved.
+/// Where a parameter keeps a branch point to first order it may break it to second order: an imperfection of the square
+/// of the parameter, whose load is - F_mm of what must act on the modes so that the branch point stays one, halved.
 /// @param start  of kind branch_point, located
-/// @returns n entries, f with gamma = W^T f of the imperfection (mu - mu0)^2; zero where the branch point is kept; nothing where
-/// it cannot be followed
+/// @returns n entries, f with gamma = W^T f of the imperfection (mu - mu0)^2; zero where the branch point is kept;
+/// nothing where it cannot be followed
 std::optional<Vector> second_order_force(const Family& family, const CriticalStart& start);
 
 /// The load at which the imperfect structure becomes critical on its path from the unloaded state:

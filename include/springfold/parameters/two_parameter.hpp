@@ -17,8 +17,8 @@ struct Family {
   /// The problem at mu, valid until the next call; nothing where the family is not defined.
   std::function<std::optional<ProblemView>(double mu)> at{};
   double step = 0x1p-8;  ///< of differences in mu, a power of two
-  /// A value between which and this mu the equations are known to be affine in mu, for all x and lambda; at least `step` away.
-  /// Nothing where that is not sure. May be missing.
+  /// A value between which and this mu the equations are known to be affine in mu, for all x and lambda; at least
+  /// `step` away. Nothing where that is not sure. May be missing.
   std::function<std::optional<double>(double mu)> line{};
 };
 
@@ -47,14 +47,14 @@ struct CriticalStart {
   int corank = 1;         ///< kind branch_point: how many eigenvalues vanish
   StateFunction value{};  ///< kind zero
   RateFunction turns{};   ///< kind surface, a corner: of what turns back there; none: of lambda
-  /// Kind limit_point: modes that vanish at the same point and along which the curve does not move, left and right ones,
-  /// n x h each; hilltop_start() finds them. Empty: none.
+  /// Kind limit_point: modes that vanish at the same point and along which the curve does not move, left and right
+  /// ones, n x h each; hilltop_start() finds them. Empty: none.
   Matrix held_left{}, held_right{};
-  /// The forms, n x h, that stay zero along a curve that keeps them. Empty: `held_right` itself, which is so where the symmetry
-  /// that the modes break is orthogonal.
+  /// The forms, n x h, that stay zero along a curve that keeps them. Empty: `held_right` itself, which is so where the
+  /// symmetry that the modes break is orthogonal.
   Matrix held_by{};
-  /// Kind branch_point: switches that are zero all along the branch, which is crossed in `piece` to one side of them. The
-  /// curve ends where one of them leaves zero, and where the mode comes to its surface.
+  /// Kind branch_point: switches that are zero all along the branch, which is crossed in `piece` to one side of them.
+  /// The curve ends where one of them leaves zero, and where the mode comes to its surface.
   std::vector<Index> resting{};
 };
 
@@ -137,8 +137,8 @@ struct CriticalCurve {
 /// derivatives, or differences of sixth order of the exact dF/dx. They enter the matrix of Newton's method, not the
 /// equations: located points are as exact as F and dF/dx.
 ///
-/// The piece of the start holds all along: where another surface is reached the curve ends and says so. mu may
-/// turn back; a caller's event ends the curve. Where one that has an inside is zero at the start, the way that leaves it
+/// The piece of the start holds all along: where another surface is reached the curve ends and says so. mu may turn
+/// back; a caller's event ends the curve. Where one that has an inside is zero at the start, the way that leaves it
 /// ends there. An event that is zero to rounding all along has no places.
 /// @throws std::invalid_argument where sizes do not fit together, at the start or at another mu
 /// @param growing  which way first: mu grows, or falls
@@ -154,8 +154,8 @@ std::optional<CriticalPoint> polish_critical(const Family& family, const Critica
 /// Nothing at degenerate points, and at branch points that the parameter does not keep.
 std::optional<CriticalPoint> critical_rate(const Family& family, const CriticalStart& start);
 
-/// The limit point of a path at a branch point at which lambda turns back, a hilltop, with the other modes held: along the path
-/// it is an ordinary one. Nothing where lambda does not turn back, or no other mode vanishes.
+/// The limit point of a path at a branch point at which lambda turns back, a hilltop, with the other modes held: along
+/// the path it is an ordinary one. Nothing where lambda does not turn back, or no other mode vanishes.
 /// @param branch_point  kind branch_point, with its corank
 /// @param path          the tangent of the path there
 std::optional<CriticalStart> hilltop_start(const Family& family, const CriticalStart& branch_point,

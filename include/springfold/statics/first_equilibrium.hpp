@@ -72,8 +72,9 @@ struct FirstEquilibrium {
 /// of growing size. Dimensionless systems are expected: coordinates of order one.
 FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem);
 
-/// Does it solve the equations in the units at hand: gaps to 1e-12 of the lengths, every force to 1e-12 of the unit of force
-/// or of the terms of its own row? Always true of systems with more than 3,000 unknowns, whose matrix is not built.
+/// Does it solve the equations in the units at hand: gaps to 1e-12 of the lengths, every force to 1e-12 of the unit of
+/// force or of the terms of its own row? Always true of systems with more than 3,000 unknowns, whose matrix is not
+/// built.
 bool solves_by_rows(const System& system, const StartProblem& problem,
                     const FirstEquilibrium& found);
 

@@ -17,7 +17,8 @@ struct MovedPlaces {
 /// @pre parts of system.mechanism; the joints of laws have coordinates, those of commands are actuated
 MovedPlaces places_of(const System& system, model::MovedParts parts);
 
-/// The system as prepare() gives it, after these parts of system.mechanism, and nothing else of it, have got other numbers.
+/// The system as prepare() gives it, after these parts of system.mechanism, and nothing else of it, have got other
+/// numbers.
 /// @returns false where a law bends at more or fewer places than before: the system is then of no use
 bool renew(const MovedPlaces& places, System& system);
 

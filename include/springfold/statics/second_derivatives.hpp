@@ -5,8 +5,8 @@
 
 namespace springfold::statics {
 
-/// Are they known: chains in the plane, springs of any law on their coordinates, dead wrenches on bodies? Points at which
-/// something acts, shapes, spatial chains and redundant closures have none.
+/// Are they known: chains in the plane, springs of any law on their coordinates, dead wrenches on bodies? Points at
+/// which something acts, shapes, spatial chains and redundant closures have none.
 bool has_second_derivatives(const System& system);
 
 /// A direction of the state and of the commands, or a derivative by both.

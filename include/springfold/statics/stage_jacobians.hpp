@@ -15,8 +15,8 @@ namespace springfold::statics {
 bool prefers_stages(const System& system, Index unknowns = 48);
 
 /// Evaluates equilibria in stages and hands out their matrices. Where has_entries() of couplings.hpp holds, the
-/// matrices have entries instead, and sparse factorisations; there is no plan() and no chain_stiffness() then. Each matrix lives as long as its
-/// StructuredMatrix; storage is used again afterwards. One object serves one thread.
+/// matrices have entries instead, and sparse factorisations; there is no plan() and no chain_stiffness() then. Each
+/// matrix lives as long as its StructuredMatrix; storage is used again afterwards. One object serves one thread.
 class StageJacobians {
  public:
   /// @param root_columns  as in plan_stages()

@@ -142,8 +142,8 @@ bool equilibrium_stages(const StagePlan& plan, const System& system, const Piece
                         const Matrix& added, Vector& residual, StageMatrix& matrix,
                         bool with_matrix = true);
 
-/// The two halves of it, for an `added` that depends on the residual: everything that depends on the state, and, after it with
-/// `for_matrix`, the matrix.
+/// The two halves of it, for an `added` that depends on the residual: everything that depends on the state, and, after
+/// it with `for_matrix`, the matrix.
 bool evaluate_stages(const StagePlan& plan, const System& system, const Piece& piece,
                      const Vector& z, const Inputs& inputs, Vector& residual, StageMatrix& matrix,
                      bool for_matrix);

@@ -6,10 +6,10 @@
 
 namespace springfold::continuation {
 
-/// Has a branch point, met right after another one, its own mode, which vanishes as near to it as special points need not be
-/// told apart? The branches of both modes, and those on which both take part, are then ways of the first one: where the
-/// others begin on them is nearer still. It gets these ways, and the reach within which special points belong to it; ways that
-/// it had keep their numbers.
+/// Has a branch point, met right after another one, its own mode, which vanishes as near to it as special points need
+/// not be told apart? The branches of both modes, and those on which both take part, are then ways of the first one:
+/// where the others begin on them is nearer still. It gets these ways, and the reach within which special points belong
+/// to it; ways that it had keep their numbers.
 /// @returns false where the branches around both cannot be told, or are none of this; the junction is then as it was
 bool take_in(const Walker& walker, const DiagramOptions& options, const Hit& hit,
              Junction& junction);

@@ -14,8 +14,8 @@ struct Met {
   int junction = -1, way_back = -1, way_on = -1;
 };
 
-/// The nearest junction that is the same point, or -1. Points that a curve has passed right before are others: between two
-/// passages of one point lies a whole loop.
+/// The nearest junction that is the same point, or -1. Points that a curve has passed right before are others: between
+/// two passages of one point lies a whole loop.
 /// @param met         by the curve so far
 /// @param same_place  distance up to which points are the same, relative to their size
 int junction_where(const Walker& walker, const std::vector<Junction>& junctions,

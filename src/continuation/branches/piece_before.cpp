@@ -46,8 +46,8 @@ double off_chord(const Walker& walker, const CurvePoint& a, const CurvePoint& b,
   return sure * length_of(walker, turn) * length / 8;
 }
 
-/// The junction is known and need not be seen as a special point: where springs switch just beside it, or along a family,
-/// it cannot be told. The trace back has arrived if it passes the very place.
+/// The junction is known and need not be seen as a special point: where springs switch just beside it, or along a
+/// family, it cannot be told. The trace back has arrived if it passes the very place.
 /// @returns length of the way to the junction
 std::optional<double> passage(const Walker& walker, const CurvePoint& junction, const Curve& back,
                               double tolerance) {
@@ -67,8 +67,8 @@ std::optional<double> passage(const Walker& walker, const CurvePoint& junction, 
   return std::nullopt;
 }
 
-/// Surfaces on which the junction lies, and to which the way is tangential there: what the switches are at its start is not
-/// what their rates make of the way to it. On which side it lies was seen when it was found.
+/// Surfaces on which the junction lies, and to which the way is tangential there: what the switches are at its start is
+/// not what their rates make of the way to it. On which side it lies was seen when it was found.
 std::vector<Index> tangential_surfaces(const Walker& walker, const CurvePoint& junction,
                                        const Way& way, double gap) {
   std::vector<Index> list = active_switches(walker, junction.x, junction.lambda);
@@ -87,7 +87,8 @@ std::vector<Index> tangential_surfaces(const Walker& walker, const CurvePoint& j
   return list;
 }
 
-/// Something unresolved at the junction hides more than the junction, if it begins farther from it than rounding blurs its place.
+/// Something unresolved at the junction hides more than the junction, if it begins farther from it than rounding blurs
+/// its place.
 bool reaches_out(const Hit& hit, double junction, double gap) {
   return hit.kind == HitKind::unresolved && junction - hit.s_before > small_share * gap;
 }
@@ -99,8 +100,8 @@ struct WayBack {
   bool reached = false;    ///< the last hit of `curve` is the junction itself
 };
 
-/// How near to a junction special points need not be told apart from it? Where several modes vanish together, or nearly, ways
-/// on which more than one takes part begin beside it, on others of its ways.
+/// How near to a junction special points need not be told apart from it? Where several modes vanish together, or
+/// nearly, ways on which more than one takes part begin beside it, on others of its ways.
 double own_reach(const Junction& junction) {
   const bool is_multiple = junction.kind == HitKind::branch_point && junction.multiplicity > 1;
   return is_multiple ? std::max(junction.reach, told_apart * scale_of(junction.point)) : 0;
@@ -150,7 +151,8 @@ WayBack trace_back(const Walker& walker, const std::vector<Event>& events,
   return back;
 }
 
-/// Nearer to the junction than can be told apart, what the trace meets on the junction's surfaces is the junction itself.
+/// Nearer to the junction than can be told apart, what the trace meets on the junction's surfaces is the junction
+/// itself.
 void leave_to_junction(const Walker& walker, const CurvePoint& junction, WayBack& back) {
   const auto is_near = [&](const CurvePoint& p) {
     return length_of(walker, between(walker, junction, p)) <= told_apart * scale_of(junction);
@@ -237,8 +239,8 @@ Hit turned(Hit hit, double length, const std::vector<Event>& events) {
   return hit;
 }
 
-/// A family on which the curve begins reaches to the junction itself, and is not told once more on the way back, where lambda
-/// stands still as well.
+/// A family on which the curve begins reaches to the junction itself, and is not told once more on the way back, where
+/// lambda stands still as well.
 void begin_families_at(const CurvePoint& junction, double length, Curve& curve,
                        std::vector<Hit>& met) {
   for (Hit& hit : curve.hits) {

@@ -28,8 +28,8 @@ struct PieceBefore {
   double length = 0;
 };
 
-/// Traces back from where the way's trace begins to its junction. Both curves see the same special points; those nearer to the
-/// junction than `DiagramOptions::same_place` are the junction itself.
+/// Traces back from where the way's trace begins to its junction. Both curves see the same special points; those nearer
+/// to the junction than `DiagramOptions::same_place` are the junction itself.
 PieceBefore piece_before(const Walker& walker, const std::vector<Event>& events,
                          const DiagramOptions& options, const Junction& junction, const Way& way);
 

@@ -166,7 +166,8 @@ Polished polish(const SearchTask& task, const Vector& from, const Piece& piece) 
       result.uncertain = std::max(result.uncertain, poor);
       return result;
     }
-    // Stiff springs leave their rounding, which is no reason to leave out an equilibrium where rounding still places it.
+    // Stiff springs leave their rounding, which is no reason to leave out an equilibrium where rounding still places
+    // it.
     const Vector rounding = rounding_of_rows(at, weights, result.x, task.lambda);
     if (!result.solved)
       result.solved = (F.array().abs() <= rounding.array().max(most)).all() &&

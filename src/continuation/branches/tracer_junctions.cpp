@@ -39,8 +39,8 @@ void Tracer::queue_ways(int number) {
           {-1, number, static_cast<int>(w), junction.ways[w].start, junction.depth + 1});
 }
 
-/// Does a special point belong to the junction that was passed right before it, or at which the branch begins? Where that one
-/// takes it in its ways are queued anew.
+/// Does a special point belong to the junction that was passed right before it, or at which the branch begins? Where
+/// that one takes it in its ways are queued anew.
 bool Tracer::belongs_to_last(const Hit& hit) {
   const int last = met_.empty() ? diagram_.branches[static_cast<std::size_t>(current_)].junction
                                 : met_.back().junction;

@@ -9,8 +9,9 @@
 
 namespace springfold::continuation {
 
-/// The same equations, but the switches `ignored` keep the sides that they have in `piece`. Where a curve comes to a known
-/// point at which it touches a surface, the switch is rounding before it is zero: nothing can be told of it there.
+/// The same equations, but the switches `ignored` keep the sides that they have in `piece`. Where a curve comes to a
+/// known point at which it touches a surface, the switch is rounding before it is zero: nothing can be told of it
+/// there.
 class WithoutSurfaces {
  public:
   WithoutSurfaces(ProblemView problem, std::vector<Index> ignored, const Piece& piece)

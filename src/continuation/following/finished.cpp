@@ -24,12 +24,13 @@ constexpr double too_near = poor;
 /// Branches that are so many times farther apart than rounding moves a point are told apart by every step.
 constexpr double well_apart = 1000;
 
-/// From how far off a narrow place is looked at: first so many times its length, at least so many of the longest steps; then
-/// from half as far, and so on: a smooth curve fits a model at last, one with a kink does not, unless the place fills it.
+/// From how far off a narrow place is looked at: first so many times its length, at least so many of the longest steps;
+/// then from half as far, and so on: a smooth curve fits a model at last, one with a kink does not, unless the place
+/// fills it.
 constexpr double times_its_length = 5, longest_steps = 2, nearest_lengths = 1.5;
 
-/// A curve that has changed to another branch is off by about an eighth of what stands between them where it is looked at; one
-/// that has not is off by what an interpolation leaves.
+/// A curve that has changed to another branch is off by about an eighth of what stands between them where it is looked
+/// at; one that has not is off by what an interpolation leaves.
 constexpr double changed = 0.02;
 
 struct PointRange {
@@ -54,8 +55,8 @@ double step_beside(const Curve& curve, std::size_t i) {
   return i + 1 < points.size() ? std::min(to, points[i + 1].s - points[i].s) : to;
 }
 
-/// Points that short steps lead to or from, beside another branch; up to their neighbours. Steps shorten as the other branch
-/// comes near: the place is looked for where they are shortest, and from there as far as it goes.
+/// Points that short steps lead to or from, beside another branch; up to their neighbours. Steps shorten as the other
+/// branch comes near: the place is looked for where they are shortest, and from there as far as it goes.
 std::vector<PointRange> hidden_stretches(const Walker& walker, const Curve& curve) {
   const double limit = short_step * walker.options.step.maximum;
   const std::size_t count = curve.points.size();

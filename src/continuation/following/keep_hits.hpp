@@ -17,8 +17,8 @@ namespace springfold::continuation {
 bool keep(const Walker& walker, Samples samples, bool ends_at_kink, const HitObserver& at_hit,
           const StepEvents& found, Curve& curve);
 
-/// The way to a surface just beside the singular point that the curve leaves, and past it: nothing of the engine's own lies
-/// on it, events of the caller may.
+/// The way to a surface just beside the singular point that the curve leaves, and past it: nothing of the engine's own
+/// lies on it, events of the caller may.
 Outcome pass_opening(const Walker& walker, const std::vector<Event>& events,
                      const HitObserver& at_hit, const Opening& opening, Progress& progress,
                      Curve& curve);

@@ -14,9 +14,9 @@
 namespace springfold::continuation {
 namespace {
 
-/// Newton's method is drawn to the branch that is nearest. Where the matrix hardly changes within the length of its first
-/// correction, that is where it came from; elsewhere nothing says which branch a step along the tangent has found.
-/// To be asked right after the correction, whose lengths the workspace holds.
+/// Newton's method is drawn to the branch that is nearest. Where the matrix hardly changes within the length of its
+/// first correction, that is where it came from; elsewhere nothing says which branch a step along the tangent has
+/// found. To be asked right after the correction, whose lengths the workspace holds.
 /// @param ds       length of the step
 /// @param refusal  why, if so
 bool may_be_another(const Walker& walker, const CurvePoint& to, double ds, std::string& refusal) {
@@ -29,9 +29,10 @@ bool may_be_another(const Walker& walker, const CurvePoint& to, double ds, std::
   return true;
 }
 
-/// The curve through the step's middle as well, which was found by itself, must lead nearer to the step's end than the one from
-/// behind the step alone: on a smooth curve its error is smaller by an order of magnitude, while another branch is as far
-/// from the one as from the other. In a cluster, where rounding moves points by more than places are wide, nothing is asked.
+/// The curve through the step's middle as well, which was found by itself, must lead nearer to the step's end than the
+/// one from behind the step alone: on a smooth curve its error is smaller by an order of magnitude, while another
+/// branch is as far from the one as from the other. In a cluster, where rounding moves points by more than places are
+/// wide, nothing is asked.
 /// @param behind  the model of the curve up to the step
 /// @param before  the last point before `here` that it knows
 bool leads_on(const Walker& walker, const ArcModel& behind, const CurvePoint& before,
@@ -74,9 +75,9 @@ const ArcModel* model_behind(const Walker& walker, const Progress& progress, con
   return arc.go_through(walker.weights, here, samples) ? &arc : nullptr;
 }
 
-/// Does the step still lie beside the junction that the curve left where its piece is singular? There the curve is that of
-/// the junction's reduced equation: special points nearer to it than `told_apart` belong to it, and eigenvalues that vanish
-/// in it are lost in their rounding. A spring that switches soon leaves no longer steps.
+/// Does the step still lie beside the junction that the curve left where its piece is singular? There the curve is that
+/// of the junction's reduced equation: special points nearer to it than `told_apart` belong to it, and eigenvalues that
+/// vanish in it are lost in their rounding. A spring that switches soon leaves no longer steps.
 bool beside_junction(const Progress& progress, const CurvePoint& end) {
   return progress.from_singular && end.s <= told_apart;
 }
@@ -103,8 +104,8 @@ bool closes_behind_kink(const Walker& walker, const CurvePoint& leaving, Curve& 
   return true;
 }
 
-/// Predicts, corrects and looks inside: does the step stay on its curve? Its end and, if there is evidence, its middle stand in
-/// the workspace.
+/// Predicts, corrects and looks inside: does the step stay on its curve? Its end and, if there is evidence, its middle
+/// stand in the workspace.
 bool take_step(const Walker& walker, const Progress& progress, const Curve& curve,
                StepReport& report, Refusal& refused) {
   CurvePoint &next = walker.memory->next, &half_way = walker.memory->middle;
@@ -125,8 +126,9 @@ bool take_step(const Walker& walker, const Progress& progress, const Curve& curv
   return !refused.astray;
 }
 
-/// A kink is located by points that are corrected on their own. It must lie where the step's ends and middle lead, nearer than
-/// these are known without the middle: just behind a branch point Newton's method is drawn to the branch that crosses there.
+/// A kink is located by points that are corrected on their own. It must lie where the step's ends and middle lead,
+/// nearer than these are known without the middle: just behind a branch point Newton's method is drawn to the branch
+/// that crosses there.
 bool is_on_step(const Walker& walker, const CurvePoint& here, const KinkSearch& kink) {
   const CurvePoint &middle = walker.memory->middle, &next = walker.memory->next;
   ArcModel &model = walker.memory->ahead, &chord = walker.memory->chord;
@@ -156,9 +158,9 @@ bool passes_by(bool report, CurvePoint& end, StepEvents& found, Progress& progre
   return shortest || found.flat;
 }
 
-/// Does the curve of a piece, which is the same up to here, lead on within it? Signs of the switches at its point ahead, on the
-/// sides of the piece, told by their rates where rounding hides them; 0 where it hides these too, nothing where one is on the
-/// other side.
+/// Does the curve of a piece, which is the same up to here, lead on within it? Signs of the switches at its point
+/// ahead, on the sides of the piece, told by their rates where rounding hides them; 0 where it hides these too, nothing
+/// where one is on the other side.
 std::optional<std::vector<int>> signs_ahead(const Walker& walker, const CurvePoint& here, double ds,
                                             const std::vector<Index>& switches) {
   const auto ahead = point_at(walker, here, ds);
@@ -178,9 +180,9 @@ std::optional<std::vector<int>> signs_ahead(const Walker& walker, const CurvePoi
   return signs;
 }
 
-/// Where switches have rested up to here, and leave their surfaces now, too slowly to be seen to cross, the curve belonged to
-/// all pieces beside them: it goes on in that within which it leads on, if that is one. Nothing switches here, but where the
-/// switches came to rest.
+/// Where switches have rested up to here, and leave their surfaces now, too slowly to be seen to cross, the curve
+/// belonged to all pieces beside them: it goes on in that within which it leads on, if that is one. Nothing switches
+/// here, but where the switches came to rest.
 /// @param suspect  could not be told on a step of this length
 bool goes_on_from_rest(const Walker& walker, Index suspect, Progress& progress, Curve& curve) {
   constexpr std::size_t most = 6;

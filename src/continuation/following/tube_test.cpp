@@ -10,7 +10,8 @@
 namespace springfold::continuation {
 namespace {
 
-/// Of the motion of M with a tube's radius, which is nearly linear, so much is aimed at when the radius is made smaller.
+/// Of the motion of M with a tube's radius, which is nearly linear, so much is aimed at when the radius is made
+/// smaller.
 constexpr double aim = 1 - small_share;
 
 /// The direction v of unit length across the curve in which |M v| is smallest, roughly, by inverse iteration.
@@ -74,7 +75,8 @@ double TubeTest::change(const Vector& u, const Matrix& J) {
 
 std::optional<double> TubeTest::radius(double longest) {
   constexpr int tries = 8;
-  // The change of a matrix across the curve is measured in its weakest direction: elsewhere it may be so many times larger.
+  // The change of a matrix across the curve is measured in its weakest direction: elsewhere it may be so many times
+  // larger.
   constexpr double displaced_safety = 2, most = 0.5 / displaced_safety;
   double error = 0, along = 0;
   for (std::size_t i = 0; i < at_.size(); ++i) {
@@ -127,8 +129,8 @@ std::optional<double> TubeTest::crossing(const ArcModel& model, const Window& wi
   return found && sigma_is_rounding(model, window) ? found : std::nullopt;
 }
 
-/// Solves the bordered equations on hyperplanes of the window, by Newton's method with the matrix at its middle, which the
-/// test of the tube has shown to contract.
+/// Solves the bordered equations on hyperplanes of the window, by Newton's method with the matrix at its middle, which
+/// the test of the tube has shown to contract.
 bool TubeTest::sigma_is_rounding(const ArcModel& model, const Window& window) {
   constexpr int places = 5, most_corrections = 40;
   const double size = std::max(1.0, at_[1].cwiseProduct(scale_).norm());

@@ -16,7 +16,8 @@ struct Window {
   double length() const { return end - begin; }
 };
 
-/// The test as verification.hpp states it. Lengths are those of the metric; unknowns of weight zero have their own unit.
+/// The test as verification.hpp states it. Lengths are those of the metric; unknowns of weight zero have their own
+/// unit.
 class TubeTest {
  public:
   TubeTest(const Walker& walker, const Piece& piece);

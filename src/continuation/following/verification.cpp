@@ -20,7 +20,8 @@ constexpr double most_uneven = 16;
 /// A window is halved so many times at most.
 constexpr int most_halvings = 7;
 
-/// A branch that crosses under a small angle is left by at least an eighth of its distance: less is the model's own error.
+/// A branch that crosses under a small angle is left by at least an eighth of its distance: less is the model's own
+/// error.
 constexpr double own_branch = small_share;
 
 /// One arc after the other, each cut into windows as the test needs them.

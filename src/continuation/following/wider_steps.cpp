@@ -13,7 +13,8 @@
 namespace springfold::continuation {
 namespace {
 
-/// A curve on which steps end elsewhere more often than this is crowded all along: shorter steps, which are counted, lead on.
+/// A curve on which steps end elsewhere more often than this is crowded all along: shorter steps, which are counted,
+/// lead on.
 constexpr int most_elsewhere = 200;
 /// Share of the anchor's step: a cluster is not crossed from nearer to it.
 constexpr double near_cluster = aside_share;
@@ -88,8 +89,8 @@ std::optional<Outcome> step_over_from(const Following& following, const Anchor& 
   return outcome;
 }
 
-/// Shorter steps end nearer to a special point and tell less of it: steps of about the length that was refused first, which
-/// end elsewhere, are tried before shorter ones; then, once, a step that begins farther from it.
+/// Shorter steps end nearer to a special point and tell less of it: steps of about the length that was refused first,
+/// which end elsewhere, are tried before shorter ones; then, once, a step that begins farther from it.
 std::optional<Outcome> step_of_like_length(const Following& following, Anchor& anchor,
                                            Progress& progress, Curve& curve) {
   const auto times = [](int power) { return std::pow(1.25, power); };

@@ -23,15 +23,15 @@ struct Anchor {
   void release(const Progress& progress, const Curve& curve);
 };
 
-/// Shorter steps end nearer to a special point and tell less of it. So the second refusal tries steps of about the length
-/// of the first that end elsewhere, and the last one, on steps on which rounding decides, tries longer steps and at last
-/// crosses the special points as one cluster.
+/// Shorter steps end nearer to a special point and tell less of it. So the second refusal tries steps of about the
+/// length of the first that end elsewhere, and the last one, on steps on which rounding decides, tries longer steps and
+/// at last crosses the special points as one cluster.
 /// @returns nothing where the step has to be shorter
 std::optional<Outcome> step_elsewhere(const Following& following, const Refusal& refused,
                                       Anchor& anchor, Progress& progress, Curve& curve);
 
-/// Takes back points that may lie on any branch: those among unresolved special points, reached on steps too short to tell,
-/// and the last one where no step continues it.
+/// Takes back points that may lie on any branch: those among unresolved special points, reached on steps too short to
+/// tell, and the last one where no step continues it.
 void forget_doubtful_points(const Anchor& anchor, double astray_at, Curve& curve);
 
 }  // namespace springfold::continuation

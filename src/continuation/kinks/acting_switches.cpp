@@ -14,10 +14,10 @@ namespace {
 /// Of the accuracy to which kinks are placed: so far apart they are two.
 constexpr double between_places = 100;
 
-/// Is the threshold of a switch that is nearly zero at a kink elsewhere on the curve? A stiff spring that has just come to
-/// act stays as near to its threshold as its force is small. Its value then follows from its rates: it is known where it is
-/// zero. What runs along its surface, or is led by rounding, acts here. A switch that the step leaves was zero where it begins,
-/// however near that is; one that surely moves away from its surface is not about to cross it.
+/// Is the threshold of a switch that is nearly zero at a kink elsewhere on the curve? A stiff spring that has just come
+/// to act stays as near to its threshold as its force is small. Its value then follows from its rates: it is known
+/// where it is zero. What runs along its surface, or is led by rounding, acts here. A switch that the step leaves was
+/// zero where it begins, however near that is; one that surely moves away from its surface is not about to cross it.
 bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
                        const Workspace::Switches& before, const Workspace::Switches& here, Index j,
                        bool was_left) {

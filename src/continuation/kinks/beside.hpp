@@ -1,5 +1,5 @@
-// The curve on one side of a kink, as near as the rate of lambda can be told from zero; does lambda stand still? The equations
-// say so, where its rate along a curve cannot. Private to the engine.
+// The curve on one side of a kink, as near as the rate of lambda can be told from zero; does lambda stand still? The
+// equations say so, where its rate along a curve cannot. Private to the engine.
 #pragma once
 
 #include <optional>
@@ -44,13 +44,14 @@ struct Opening {
   KinkSearch kink{};  ///< the surface, found
 };
 
-/// Beside a singular point rounding of F moves lambda by eps / q at the distance q, but lambda changes by q^2 only: what a
-/// branch does within 1e-5 of the point cannot be seen there. F of one piece is smooth beyond its surfaces, so the branch is
-/// corrected farther out and read from the polynomial through the singular point, its tangent, and these points.
+/// Beside a singular point rounding of F moves lambda by eps / q at the distance q, but lambda changes by q^2 only:
+/// what a branch does within 1e-5 of the point cannot be seen there. F of one piece is smooth beyond its surfaces, so
+/// the branch is corrected farther out and read from the polynomial through the singular point, its tangent, and these
+/// points.
 /// @param junction  the singular point, off all surfaces, with the branch's tangent and piece; s = 0
 /// @param farther   a point of the branch on the smooth continuation of the piece
-/// @returns nothing where no surface lies within `told_apart`, or more than one thing may happen before it, or the polynomial
-///          is not the curve
+/// @returns nothing where no surface lies within `told_apart`, or more than one thing may happen before it, or the
+///          polynomial is not the curve
 std::optional<Opening> opening_of(const Walker& walker, const CurvePoint& junction,
                                   const CurvePoint& farther);
 

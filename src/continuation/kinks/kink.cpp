@@ -18,8 +18,8 @@ namespace {
 
 enum class Side { in, out, rests, unclear };
 
-/// On which side of a surface that is tangential here is a value of the switch at this distance? Corrected points are off
-/// by their rounding over the distance to a singular point, which this one may be.
+/// On which side of a surface that is tangential here is a value of the switch at this distance? Corrected points are
+/// off by their rounding over the distance to a singular point, which this one may be.
 Side side_of(double value, double distance) {
   const double zero = exact_model / distance, clear = 10 * zero;
   if (std::abs(value) > clear) return value > 0 ? Side::in : Side::out;
@@ -68,8 +68,9 @@ void add_doubt(std::string why, Rays& rays) {
   rays.why = std::move(why);
 }
 
-/// Is this way of a piece known already from a piece beyond its resting switches? Such a ray is kept once, in the piece that was
-/// asked for, if that is regular. Rounding may let a switch rest on one side and not on the other: that knows where it goes.
+/// Is this way of a piece known already from a piece beyond its resting switches? Such a ray is kept once, in the piece
+/// that was asked for, if that is regular. Rounding may let a switch rest on one side and not on the other: that knows
+/// where it goes.
 /// @param unsure   switches whose rates along the way are none to rounding
 /// @param resting  of these, those that are known to rest on it
 bool is_known(const Walker& walker, const Piece& preferred, const Piece& piece, const PieceWay& way,
@@ -103,8 +104,9 @@ bool is_on_surface(const CurvePoint& at, const Surfaces& surfaces, Index j) {
   return is_exact(std::abs(surfaces.g[j]), size);
 }
 
-/// The rate of a switch along a way, positive on the side of the piece. Below the accuracy of the way it is known as well as the
-/// equations determine it, where the point lies on the surface to rounding: a stiff member moves little, and surely.
+/// The rate of a switch along a way, positive on the side of the piece. Below the accuracy of the way it is known as
+/// well as the equations determine it, where the point lies on the surface to rounding: a stiff member moves little,
+/// and surely.
 KnownRate rate_on_way(const CurvePoint& at, const PieceWay& way, const Surfaces& surfaces, Index j,
                       SwitchRates& rates) {
   const double side = at.piece[static_cast<std::size_t>(j)];

@@ -85,21 +85,21 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
 std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
                              const std::vector<Index>& left);
 
-/// Of several switches that act, those whose surfaces the curve surely meets behind the first one are left to the next step:
-/// where F = 0 and g_j = 0 is known to rounding, however near it is.
+/// Of several switches that act, those whose surfaces the curve surely meets behind the first one are left to the next
+/// step: where F = 0 and g_j = 0 is known to rounding, however near it is.
 void part_surfaces(const Walker& walker, const CurvePoint& from, const std::vector<Index>& left,
                    KinkSearch& kink);
 
-/// Where one switch acts the kink's point is that of F = 0, g_j = 0: lambda on a steep curve is then as exact as both are, not
-/// as the place along the curve. What does not settle stays as it is.
+/// Where one switch acts the kink's point is that of F = 0, g_j = 0: lambda on a steep curve is then as exact as both
+/// are, not as the place along the curve. What does not settle stays as it is.
 void settle_on_surface(const Walker& walker, const CurvePoint& from, KinkSearch& kink);
 
 /// The same at a point from which half-branches leave, which is located by the eigenvalues of other pieces.
 inline constexpr double half_branch_rank = 10 * located_rank;
 
 /// As rays_at, with the smallest ratio of singular values that counts as full rank of a piece.
-/// @param along  tangent of the point's own piece, which is regular here although a branch point may be so near that its
-///               equations look singular; nullptr: not known
+/// @param along  tangent of the point's own piece, which is regular here although a branch point may be so near that
+///               its equations look singular; nullptr: not known
 /// @param polished   as regular_ways() has it: a start, which was not located
 /// @param among      of regular pieces the ways of these alone are kept; nullptr: of all 2^k
 Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<Index>& active,
@@ -128,8 +128,8 @@ PieceWays both_ways(const Direction& tangent);
 
 /// The two directions of the curve of a piece that is regular here.
 /// @param full_rank  smallest ratio of pivots that counts as full rank
-/// @param polished   the point solves the equations to rounding: then rows and columns of different sizes are brought to
-///                   one size before it is called singular. Located points are too inexact for that
+/// @param polished   the point solves the equations to rounding: then rows and columns of different sizes are brought
+///                   to one size before it is called singular. Located points are too inexact for that
 PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_rank, bool polished);
 
 /// What is known of the active surfaces at a point.

@@ -140,8 +140,8 @@ void leave_zero_at_begin(const Walker& walker, const CurvePoint& own,
   first = std::move(*moved);
 }
 
-/// May a branch of this piece leave along a direction, one way or the other, as the rates of the resting switches say? Not if
-/// some of them clearly lead into the piece and others out of it.
+/// May a branch of this piece leave along a direction, one way or the other, as the rates of the resting switches say?
+/// Not if some of them clearly lead into the piece and others out of it.
 bool may_leave(const Walker& walker, const Piece& piece, const std::vector<Index>& resting,
                const CurvePoint& at, const Direction& along) {
   Matrix dg_dx;

@@ -107,8 +107,8 @@ bool is_surely_counted(const Walker& walker, const CurvePoint& p) {
   return true;
 }
 
-/// Does lambda turn at a kink beside which it seems to stand still, as the identity of fits() has it? In a large unit of
-/// lambda soft pieces look level; the numbers of negative eigenvalues are as sure as ever, where dF/dx is regular.
+/// Does lambda turn at a kink beside which it seems to stand still, as the identity of fits() has it? In a large unit
+/// of lambda soft pieces look level; the numbers of negative eigenvalues are as sure as ever, where dF/dx is regular.
 std::optional<bool> turns_by_counts(const Walker& walker, const KinkSearch& kink,
                                     const std::vector<Ray>& rays) {
   if (kink.active.size() != 1 || kink.singular || rays.size() != 1 || walker.problem.structured() ||

@@ -191,8 +191,8 @@ std::optional<double> departure(const SwitchOnStep& f, double slack) {
 
 constexpr double steep = told_apart;
 
-/// The curve ends its step on a surface, to rounding on either side, or just before: take the surface into this step, or,
-/// where it is nearly tangential, let the step end elsewhere.
+/// The curve ends its step on a surface, to rounding on either side, or just before: take the surface into this step,
+/// or, where it is nearly tangential, let the step end elsewhere.
 Crossing at_the_end(const SwitchOnStep& f, double f1, double d1) {
   if (!(d1 < -steep)) return {.clear = false};
   return crossing_in(f, 0.5 * f.h, f.h + 4 * std::abs(f1) / -d1 + residual_level * f.h);
@@ -220,8 +220,8 @@ Crossing crossing_of(const SwitchOnStep& f, Cubic cubic, bool leaves) {
   return judge(f, a, cubic);
 }
 
-/// The tangent with which a curve arrives at step length `ds`, from its points before: at a branch point the equations have
-/// two directions and do not say which is that of this curve.
+/// The tangent with which a curve arrives at step length `ds`, from its points before: at a branch point the equations
+/// have two directions and do not say which is that of this curve.
 std::optional<Direction> arriving_tangent(const Walker& walker, const CurvePoint& from, double ds) {
   constexpr double nearest =
       1 - small_share;  // of the way: nearer points may belong to the other branch
@@ -261,8 +261,8 @@ double size_of(const Workspace::Switches& at, Index j, const CurvePoint& p) {
   return at.dg_dx.row(j).cwiseAbs().dot(p.x.cwiseAbs()) + std::abs(at.dg_dlambda[j] * p.lambda);
 }
 
-/// A switch that is zero where the step begins, and that no value on the step tells from zero, leaves its surface where its rates
-/// are sure to: across a stiff member, or at high order, values are rounding for long, and rates are not.
+/// A switch that is zero where the step begins, and that no value on the step tells from zero, leaves its surface where
+/// its rates are sure to: across a stiff member, or at high order, values are rounding for long, and rates are not.
 bool moves_away(const SwitchOnStep& f, const CurvePoint& to, const Cubic& ends,
                 const std::pair<const Workspace::Switches&, const Workspace::Switches&>& at) {
   const double most = std::max(std::abs(ends.f0), std::abs(ends.f1));

@@ -38,8 +38,8 @@ bool is_flat(const Walker& walker, const CurvePoint& p) {
          std::min(flat_rate, clear_of_rounding * error * freedom_of_rate(walker, p));
 }
 
-/// Do values at equal distances jump about, so that they are nothing but rounding? Fourth differences of a smooth function are
-/// small, however flat it is; those of noise are several times as large as itself.
+/// Do values at equal distances jump about, so that they are nothing but rounding? Fourth differences of a smooth
+/// function are small, however flat it is; those of noise are several times as large as itself.
 bool are_nothing_but_rounding(std::vector<double> values) {
   const auto largest = [&values] {
     double most = 0;
@@ -78,9 +78,10 @@ bool rests_along(const Walker& walker, const CurvePoint& here, int direction) {
   return are_nothing_but_rounding(std::move(rates)) && same_level(walker, all);
 }
 
-/// Does lambda stand still beside a singular point on a longer way than any inflection stays flat? The equations hardly know it
-/// there, and where terms cancel in them rounding leaves rates that steps cannot tell from turns. A curve that rests on one side
-/// of a point does so on the other: the singular point itself, where its tangent is not defined, may lie on either.
+/// Does lambda stand still beside a singular point on a longer way than any inflection stays flat? The equations hardly
+/// know it there, and where terms cancel in them rounding leaves rates that steps cannot tell from turns. A curve that
+/// rests on one side of a point does so on the other: the singular point itself, where its tangent is not defined, may
+/// lie on either.
 bool rests_beside_singular(const Walker& walker, const CurvePoint& here, const CurvePoint& end) {
   const double rate = std::max(std::abs(here.tangent.dlambda), std::abs(end.tangent.dlambda));
   return rate <= flat_rate && negligible_share * freedom_of_rate(walker, here) > 1 &&
@@ -165,15 +166,16 @@ void add_special(const StepEvents& special, StepEvents& found) {
   found.unexplained = special.unexplained;
 }
 
-/// A stretch on which the rate of lambda is lost in rounding: a fold there belongs to the kink, branches that cross do not.
+/// A stretch on which the rate of lambda is lost in rounding: a fold there belongs to the kink, branches that cross do
+/// not.
 void add_crossings(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                    StepEvents& found) {
   if (!(to.s > from.s)) return;
   add_special(events_on_step(without_limit_points(walker), from, to, nullptr, {}), found);
 }
 
-/// Events of the caller on a step that ends at a singular point: those of places all along; those of tangents up to just
-/// before it, since there the equations do not say which tangent is that of the curve.
+/// Events of the caller on a step that ends at a singular point: those of places all along; those of tangents up to
+/// just before it, since there the equations do not say which tangent is that of the curve.
 /// @param last  just before the end
 StepEvents events_to_singular(const Walker& walker, const CurvePoint& from, const CurvePoint& last,
                               const CurvePoint& to, const std::vector<Event>& events) {
@@ -190,8 +192,8 @@ StepEvents events_to_singular(const Walker& walker, const CurvePoint& from, cons
   return found;
 }
 
-/// On a family lambda turns nowhere, and dF/dx is singular all along; the matrix of the curve is so where another branch
-/// crosses. Where one does so at the kink behind the step, it belongs to the kink, as on any curve.
+/// On a family lambda turns nowhere, and dF/dx is singular all along; the matrix of the curve is so where another
+/// branch crosses. Where one does so at the kink behind the step, it belongs to the kink, as on any curve.
 StepEvents family_events(const Walker& walker, const CurvePoint& from, CurvePoint& to,
                          const CurvePoint* middle, const std::vector<Event>& events,
                          bool ends_singular, Curve& curve) {

@@ -60,8 +60,8 @@ std::optional<Direction> structured_tangent(const Walker& walker, const CurvePoi
   return tangent;
 }
 
-/// How far from here may a small singular value vanish? Its rate along every direction of the point is u^T D^2F[v, .]: one
-/// difference of J along its own vector v has them all. In length of the metric; 0 outside the domain.
+/// How far from here may a small singular value vanish? Its rate along every direction of the point is u^T D^2F[v, .]:
+/// one difference of J along its own vector v has them all. In length of the metric; 0 outside the domain.
 double way_to_zero(const Walker& walker, const CurvePoint& at, const EquilibratedJacobian& own,
                    const Svd& svd, Index i) {
   const Index n = own.J.rows();
@@ -80,8 +80,8 @@ double way_to_zero(const Walker& walker, const CurvePoint& at, const Equilibrate
   return svd.values[i] / std::max(rate, smallest_number);
 }
 
-/// A stiff member beside soft ones leaves a small singular value that is known as well as the equations' entries are: it is none
-/// that vanishes, if it is clear of their rounding and no place near the point makes it zero.
+/// A stiff member beside soft ones leaves a small singular value that is known as well as the equations' entries are:
+/// it is none that vanishes, if it is clear of their rounding and no place near the point makes it zero.
 bool is_surely_not_zero(const Walker& walker, const CurvePoint& at, const EquilibratedJacobian& own,
                         const Svd& svd, Index i, double near) {
   return svd.values[i] > between_samples * exact_model * std::max(svd.values[0], 1.0) &&
@@ -164,8 +164,8 @@ bool nothing_new(const Walker& walker, const Matrix& N, const Matrix& rates,
          });
 }
 
-/// A stiff member beside soft ones makes a piece look singular before it is. Where its kernel is one line, and that the line
-/// along which the curve arrives, which all pieces share whose switches rest, it is regular and has no other way.
+/// A stiff member beside soft ones makes a piece look singular before it is. Where its kernel is one line, and that the
+/// line along which the curve arrives, which all pieces share whose switches rest, it is regular and has no other way.
 bool is_own_curve(const Walker& walker, const CurvePoint& at, const Kernel& kernel) {
   if (kernel.corank > 0 || at.tangent.dx.size() != at.x.size()) return false;
   const auto line = unit(kernel.N, walker.weights);
@@ -199,8 +199,8 @@ PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_r
     return equilibrated_ways(walker, at, polished ? full_rank : told_apart);
   auto d = unit(qr.last_column, walker.weights);
   if (!d) return {.why = "along the curve nothing changes here that the metric measures"};
-  // Does lambda stand still? Beside a singular point rounding is in the kernel by the inverse of the least pivot: one inverse
-  // iteration takes it out.
+  // Does lambda stand still? Beside a singular point rounding is in the kernel by the inverse of the least pivot: one
+  // inverse iteration takes it out.
   if (std::abs(d->dlambda) <= flat_rate)
     if (auto better = tangent_at(linear, walker.weights, *d)) d = std::move(better);
   PieceWays ways = both_ways(*d);

@@ -51,8 +51,8 @@ std::optional<Direction> step_to_surface(const Walker& walker, const CurvePoint&
   return Direction{step.head(n), step[n]};
 }
 
-/// What rounding of the terms of each equation makes of the value of another switch, of this gradient, at a place on the surface
-/// of switch j: it is held there, however far soft springs let rounding move a point along a curve.
+/// What rounding of the terms of each equation makes of the value of another switch, of this gradient, at a place on
+/// the surface of switch j: it is held there, however far soft springs let rounding move a point along a curve.
 double error_on_surface(const Walker& walker, const CurvePoint& place, Index j,
                         const Vector& gradient) {
   const auto e = equations_on_surface(walker, place, j);
@@ -106,7 +106,8 @@ void take_place(const CurvePoint& from, CurvePoint place, KinkSearch& kink) {
   kink.point = std::move(place);
 }
 
-/// Which of the surfaces does the curve surely meet behind this place on the surface of `first`, and does it meet that one first?
+/// Which of the surfaces does the curve surely meet behind this place on the surface of `first`, and does it meet that
+/// one first?
 struct Order {
   std::vector<Index> here{}, ahead{};
   bool is_first = true;
@@ -131,8 +132,8 @@ Order order_at(const Walker& walker, const CurvePoint& place, Index first,
   return order;
 }
 
-/// Switches act together where it makes no difference to any row which of them is first: is the curve, on this piece and on that
-/// behind the surfaces `crossed`, as good as here when it meets that of j?
+/// Switches act together where it makes no difference to any row which of them is first: is the curve, on this piece
+/// and on that behind the surfaces `crossed`, as good as here when it meets that of j?
 bool is_as_good_as_there(const Walker& walker, const CurvePoint& place,
                          const std::vector<Index>& crossed, Index j) {
   CurvePoint behind = place;

@@ -132,8 +132,8 @@ double sure_rate(const Walker& walker, const Workspace::Switches& at, Index j,
   return sure_rate(walker, p, at.dg_dx, at.dg_dlambda, j);
 }
 
-/// A corrected point is off by the last correction that is not made, and by what is left of the equations, terms that round,
-/// times the inverse of the bordered matrix: across a stiff member by as little as that is stiff.
+/// A corrected point is off by the last correction that is not made, and by what is left of the equations, terms that
+/// round, times the inverse of the bordered matrix: across a stiff member by as little as that is stiff.
 double error_of_value(const Walker& walker, const CurvePoint& at, const Matrix& dg_dx,
                       const Vector& dg_dlambda, Index j) {
   Linearisation linear;

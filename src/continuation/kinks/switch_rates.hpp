@@ -1,4 +1,5 @@
-// How fast switching functions change along a curve, and how well that and their values are known. Private to the engine.
+// How fast switching functions change along a curve, and how well that and their values are known. Private to the
+// engine.
 #pragma once
 
 #include <memory>
@@ -26,16 +27,17 @@ struct KnownRate {
   bool has_sign() const;
 };
 
-/// Rates along the tangents of a regular piece at a point of its curve, as well as its equations determine them. These are
-/// brought to one size, y = D_c^-1 (dx, dlambda), and bordered by the tangent that is known:
+/// Rates along the tangents of a regular piece at a point of its curve, as well as its equations determine them. These
+/// are brought to one size, y = D_c^-1 (dx, dlambda), and bordered by the tangent that is known:
 ///
 ///     | D_r [dF/dx dF/dlambda] D_c |       | 0 |
 ///     |                            | y  =  |   |
 ///     |           y0^T             |       | 1 |
 ///
-/// Every entry of the equations may be off by rounding of size one, and the point by what that is over their least singular
-/// value, along its vector, which changes the entries; what both make of a rate follows from the adjoint of this system: stiff
-/// members beside soft ones make nothing uncertain by that alone. Computed where it is asked for first.
+/// Every entry of the equations may be off by rounding of size one, and the point by what that is over their least
+/// singular value, along its vector, which changes the entries; what both make of a rate follows from the adjoint of
+/// this system: stiff members beside soft ones make nothing uncertain by that alone. Computed where it is asked for
+/// first.
 class SwitchRates {
  public:
   SwitchRates(const Walker& walker, const CurvePoint& at);

@@ -47,8 +47,8 @@ void measure_motion(Workspace& memory, const LinearisedPoint& middle,
     if (!(sizes[i] == 0)) memory.moving_rows.push_back(i);
 }
 
-/// |E0^-1| |E1 - E0| is no smaller than |E0^-1 (E1 - E0)| and takes one product of a few for all E1, which nearly always
-/// is enough. Rows that do not move, the last one among them, count for nothing.
+/// |E0^-1| |E1 - E0| is no smaller than |E0^-1 (E1 - E0)| and takes one product of a few for all E1, which nearly
+/// always is enough. Rows that do not move, the last one among them, count for nothing.
 bool surely_regular(Workspace& memory, LinearisedPoint& middle,
                     std::span<const LinearisedPoint* const> others) {
   const Index n = middle.x.size();
@@ -191,8 +191,8 @@ double rate_noise(const ExtendedMatrix& E) {
   if (!solution || !row) return infinity;
   const Vector tangent = solution->col(0) / solution->col(0).norm();
   const double noise = few_roundings * row->col(0).cwiseAbs().dot(magnitudes(E, tangent).col(0));
-  // No entry of a unit tangent is better than a rounding of its length: where lambda itself is what Newton's method left
-  // of zero, in a dead band, the equations' own rounding says nothing.
+  // No entry of a unit tangent is better than a rounding of its length: where lambda itself is what Newton's method
+  // left of zero, in a dead band, the equations' own rounding says nothing.
   return std::isfinite(noise) ? std::max(noise, few_roundings) : infinity;
 }
 

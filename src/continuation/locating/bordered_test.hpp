@@ -12,9 +12,10 @@
 namespace springfold::continuation {
 
 /// False if the extended matrix with the last row tau, moving from the middle sample E0 to one of the others, E1, may
-/// become singular on the way, or is not defined. With X = E0^-1 (E1 - E0), I + t X is regular for all t in [0, 1] if the
-/// spectral radius of |X| is below 1; it is bounded by max (|X| d)_i / d_i for any positive d (Collatz and Wielandt). A factor
-/// of two is left for motion that is not straight. Of a structured E the radius itself is estimated, with a factor of three.
+/// become singular on the way, or is not defined. With X = E0^-1 (E1 - E0), I + t X is regular for all t in [0, 1] if
+/// the spectral radius of |X| is below 1; it is bounded by max (|X| d)_i / d_i for any positive d (Collatz and
+/// Wielandt). A factor of two is left for motion that is not straight. Of a structured E the radius itself is
+/// estimated, with a factor of three.
 bool surely_regular(const Walker& walker, const Direction& tau, Samples samples);
 
 /// Can all of E be singular between these matrices?
@@ -39,8 +40,8 @@ double sigma_noise(const ExtendedMatrix& E, const Borders& borders);
 /// Infinity where E is singular.
 double rate_noise(const ExtendedMatrix& E);
 
-/// The same of errors that the equations' own rates along the tangent may have, each no larger than `error`: terms that cancel
-/// in an entry leave more rounding than the entry tells.
+/// The same of errors that the equations' own rates along the tangent may have, each no larger than `error`: terms that
+/// cancel in an entry leave more rounding than the entry tells.
 double rate_error(const ExtendedMatrix& E, double error);
 
 }  // namespace springfold::continuation

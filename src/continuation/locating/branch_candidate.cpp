@@ -61,9 +61,9 @@ bool has_corank(const TestedStep& arc, const CurvePoint& point, Index m) {
   return values[m - 1] <= small_share * values[m];
 }
 
-/// Several modes of soft springs beside a stiff member are all small against it, also where one of them alone has lost its
-/// stiffness. Do m of them vanish beside the others, to what is told apart, after rows and columns have been brought to one
-/// size?
+/// Several modes of soft springs beside a stiff member are all small against it, also where one of them alone has lost
+/// its stiffness. Do m of them vanish beside the others, to what is told apart, after rows and columns have been
+/// brought to one size?
 bool vanish_together(const TestedStep& arc, const CurvePoint& point, Index m) {
   if (m < 2 || arc.walker().problem.structured()) return true;
   const auto own = equilibrated_jacobian(arc.walker(), point);
@@ -154,8 +154,8 @@ bool has_company(const TestedStep& arc, const Candidate& found, Index m) {
   return false;
 }
 
-/// Gives a branch point the exact direction of its branch, where second derivatives tell it; otherwise what of its direction
-/// lies in the kernel.
+/// Gives a branch point the exact direction of its branch, where second derivatives tell it; otherwise what of its
+/// direction lies in the kernel.
 /// @returns lambda's rate there, if the direction is exact
 std::optional<double> settle_tangent(const TestedStep& arc, Index m, CurvePoint& point) {
   const auto e = reduce(arc.walker(), point, static_cast<int>(m));

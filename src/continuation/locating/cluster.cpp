@@ -82,7 +82,8 @@ Roots roots_of(const Interpolant& p) {
 std::optional<Interpolant> accurate(const SampledFunction& f, double a, double b) {
   auto p = interpolate_value(f, a, b);
   if (!p) return std::nullopt;
-  // A check that falls among the special points, which are expected in the middle, may be spoilt by rounding; most must not.
+  // A check that falls among the special points, which are expected in the middle, may be spoilt by rounding; most must
+  // not.
   const double scale = p->values.cwiseAbs().maxCoeff();
   int good = 0;
   for (const double share : shares_towards_ends<6>()) {

@@ -51,8 +51,8 @@ EventValue value_of(const Event& event, const CurvePoint& point) {
   return {event.value(point), event.noise ? event.noise(point) : 0};
 }
 
-/// How far values scatter at points of the curve that are corrected again, from a little aside of it: where the curve is nearly
-/// singular, its places and tangents are as rough as that, whatever the terms of the value are.
+/// How far values scatter at points of the curve that are corrected again, from a little aside of it: where the curve
+/// is nearly singular, its places and tangents are as rough as that, whatever the terms of the value are.
 double scatter_of(const TestedStep& arc, Samples samples, const Event& event,
                   std::span<const double> values) {
   const Walker& walker = arc.walker();
@@ -85,7 +85,8 @@ double scatter_of(const TestedStep& arc, Samples samples, const Event& event,
   return scatter;
 }
 
-/// The event between the ends; at the ends the very values that the neighbouring steps see: a sign must not change in between.
+/// The event between the ends; at the ends the very values that the neighbouring steps see: a sign must not change in
+/// between.
 SampledFunction value_on(const TestedStep& arc, const Event& event,
                          std::span<const double> values) {
   return [&arc, &event, values](double ds) -> std::optional<double> {
@@ -98,8 +99,8 @@ SampledFunction value_on(const TestedStep& arc, const Event& event,
   };
 }
 
-/// Does the event keep clear of zero between its samples? As the polynomial through them has it, which is off by less than it
-/// differs from the cubic through the step's ends; what the step does besides was looked for when it was taken.
+/// Does the event keep clear of zero between its samples? As the polynomial through them has it, which is off by less
+/// than it differs from the cubic through the step's ends; what the step does besides was looked for when it was taken.
 bool keeps_its_sign(const TestedStep& arc, const Event& event, std::span<const double> values) {
   constexpr int parts =
       8;  // a parabola's extremum between their ends is off by a 64th of its height
@@ -160,8 +161,8 @@ bool add_where_defined(const TestedStep& arc, const Event& event, std::span<cons
   return search.resolved && (!search.zeros.empty() || !within_reach(ends));
 }
 
-/// At a singular point the equations do not say which tangent is that of the curve: zeros of what depends on it up to just
-/// before such an end of the step.
+/// At a singular point the equations do not say which tangent is that of the curve: zeros of what depends on it up to
+/// just before such an end of the step.
 ZeroSearch zeros_beside_singular_ends(const TestedStep& arc, Samples samples,
                                       const SampledFunction& value, double noise) {
   const double h = arc.length(), aside = std::min(small_share * h, told_apart);
@@ -236,8 +237,8 @@ bool add_user_event(const TestedStep& arc, Samples samples, const Event& event,
   return search.resolved;
 }
 
-/// A special point shows the curve where its samples did not: between two of them an event changes its sign once more than was
-/// found, as where a force has passed its limit and comes back within the step.
+/// A special point shows the curve where its samples did not: between two of them an event changes its sign once more
+/// than was found, as where a force has passed its limit and comes back within the step.
 /// @param found  all special points of the step, in order
 bool add_between_special(const TestedStep& arc, Samples samples, const Event& event,
                          std::vector<Hit>& found) {

@@ -20,8 +20,8 @@ double sign(Index pattern, Index row) {
   return std::cos(2.1 * static_cast<double>((pattern + 1) * (row + 1))) > 0 ? 1 : -1;
 }
 
-/// Rounding of F, row by row: of the products with E; and what F shows when the point is moved by some units of rounding,
-/// as terms of F may be much larger than what they leave of it.
+/// Rounding of F, row by row: of the products with E; and what F shows when the point is moved by some units of
+/// rounding, as terms of F may be much larger than what they leave of it.
 std::optional<Vector> rounding_of(const TestedStep& arc, const ExtendedMatrix& E,
                                   const CurvePoint& point, const Vector& F) {
   const ProblemView problem = arc.walker().problem;
@@ -137,7 +137,8 @@ std::string residual_doubt(const Walker& walker, const ArcModel* model, const Cu
     const bool inside = walker.problem.residual(p.x, p.lambda, from.piece, F);
     return inside && F.size() > 0 ? F.norm() : 0.0;
   };
-  // What rounding of the terms of each row does not explain: of a stiff spring it is far more than a soft one's residual.
+  // What rounding of the terms of each row does not explain: of a stiff spring it is far more than a soft one's
+  // residual.
   const auto size_above_rounding = [&](double t) {
     go_to(t);
     Vector rounding;
@@ -240,7 +241,8 @@ bool is_determined(const TestedStep& arc, const CurvePoint& point, double most_b
   if (!(blur <= most_blur)) return false;
   const WeakestDirection weakest(arc, *E, point);
   const auto change = weakest.change(between_samples * blur);
-  // A matrix that changes by less than one of itself stays regular; half leaves a factor of two for motion that is not straight.
+  // A matrix that changes by less than one of itself stays regular; half leaves a factor of two for motion that is not
+  // straight.
   return change && *change <= 0.5 * weakest.here();
 }
 
@@ -266,7 +268,8 @@ bool examine(const Walker& walker, const ArcModel* model, const CurvePoint& from
     return length_of(walker, d);
   };
   // A piece may begin where a law is hardly smooth, as at a contact whose force grows with a power little above one. No
-  // polynomial follows it there, but what a short first step is off by less than places are promised by is no other branch.
+  // polynomial follows it there, but what a short first step is off by less than places are promised by is no other
+  // branch.
   const double nothing = model == nullptr && ds <= poor ? promised_place : function_noise;
   // An eigen-decomposition: only where it can matter.
   const auto exceeds = [&](double value, double limit) {

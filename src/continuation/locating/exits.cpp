@@ -64,9 +64,9 @@ struct Limit {
   double accuracy = infinity;
 };
 
-/// Where the branch of a ray is expected `times` as far away: on the parabola through the singular point that touches the
-/// branch at the ray's point. Where curves cross under a small angle and bend by more than that, half of the way to a point of
-/// one of them is nearer to the other.
+/// Where the branch of a ray is expected `times` as far away: on the parabola through the singular point that touches
+/// the branch at the ray's point. Where curves cross under a small angle and bend by more than that, half of the way to
+/// a point of one of them is nearer to the other.
 Vector expected(const ReducedEquation& e, const RayPoint& ray, double times) {
   const Vector way = ray.U - e.U0;
   if (ray.rate.size() == 0) return e.U0 + times * way;
@@ -196,10 +196,10 @@ void add_exit(const ReducedEquation& e, const RayPoint& ray, double rho, Leaving
   result.exits.push_back(std::move(exit));
 }
 
-/// Two curves cross, and only these: the quadratic terms of one equation in two unknowns say so where they have two real lines. A
-/// sphere on which there are other ways is too large: they belong to a branch that passes beside the point. Signs balance
-/// then as well, but on spheres that another eigenvalue's zero lies inside of, as where two modes become critical together
-/// but for little.
+/// Two curves cross, and only these: the quadratic terms of one equation in two unknowns say so where they have two
+/// real lines. A sphere on which there are other ways is too large: they belong to a branch that passes beside the
+/// point. Signs balance then as well, but on spheres that another eigenvalue's zero lies inside of, as where two modes
+/// become critical together but for little.
 bool is_crossing_of_two(const ReducedEquation& e, const std::vector<Vector>& sure) {
   return e.k == 1 && sure.size() == ways_of_two;
 }

@@ -43,25 +43,24 @@ using NearEnough = std::function<bool(const CurvePoint& start, const Direction& 
 /// branches, and as many must enter the sphere as leave it (degree); otherwise `complete` is false.
 /// So it is for k > 2, where nothing is searched. A search by samples: no proof.
 ///
-/// The tangents are exact (about 1e-10) where the quadratic terms of g determine them, and
-/// extrapolated in rho elsewhere: to about 1e-6, or 1e-4 where only terms of high order tell the
-/// branches apart. Switches of at.piece are not considered.
-/// Starts are brought in by halves until `near_enough` holds for them, to 1e-9 of max(1, |u0|) at most; the search itself does
-/// not depend on it: F of one piece is smooth beyond its surfaces.
+/// The tangents are exact (about 1e-10) where the quadratic terms of g determine them, and extrapolated in rho
+/// elsewhere: to about 1e-6, or 1e-4 where only terms of high order tell the branches apart. Switches of at.piece are
+/// not considered. Starts are brought in by halves until `near_enough` holds for them, to 1e-9 of max(1, |u0|) at most;
+/// the search itself does not depend on it: F of one piece is smooth beyond its surfaces.
 /// @param at  the singular point (x, lambda, piece), located to about 1e-10
 /// @param corank  k = dim ker J0 - 1; 0 at a regular point, which has its two directions
 Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
                const NearEnough& near_enough = {});
 
-/// All branches that leave a simple branch point beside which another mode vanishes: those that cross the sphere within which
-/// special points need not be told apart, by the reduced equations of both modes.
+/// All branches that leave a simple branch point beside which another mode vanishes: those that cross the sphere within
+/// which special points need not be told apart, by the reduced equations of both modes.
 Exits exits_of_close_modes(const Walker& walker, const CurvePoint& at,
                            const NearEnough& near_enough = {});
 
-/// Corank of [dF/dx dF/dlambda] at a point: how many of its singular values are below the share, which is as good as the
-/// point is known, and separated from the others by a gap, after rows and columns have been divided by their sizes. Sizes
-/// are those of the matrix here or a hundredth of its change within a tenth, whichever is larger: here all of it may
-/// vanish. -1 outside the domain.
+/// Corank of [dF/dx dF/dlambda] at a point: how many of its singular values are below the share, which is as good as
+/// the point is known, and separated from the others by a gap, after rows and columns have been divided by their sizes.
+/// Sizes are those of the matrix here or a hundredth of its change within a tenth, whichever is larger: here all of it
+/// may vanish. -1 outside the domain.
 int corank_of(const Walker& walker, const CurvePoint& at, double share = poor);
 
 }  // namespace springfold::continuation

@@ -9,8 +9,8 @@ double grid_place(const Interpolant& p, int i) {
   return i == feature_cells ? p.b : p.a + (p.b - p.a) * i / feature_cells;
 }
 
-/// An extremum that reaches the level beside a cell of the grid in which the interpolant crosses zero: the values there do not
-/// show it, one being on the other side of zero, and the next one small already; the slopes do.
+/// An extremum that reaches the level beside a cell of the grid in which the interpolant crosses zero: the values there
+/// do not show it, one being on the other side of zero, and the next one small already; the slopes do.
 void add_extrema_beside(const Interpolant& p, int crossed, double level,
                         std::vector<double>& places) {
   constexpr int hidden = 3;

@@ -62,9 +62,9 @@ std::optional<Matrix> second_derivative(const ReducedEquation& e, Index i, doubl
   return sum;
 }
 
-/// Left borders B with L^T B = I that move as the matrix does along the path, D^2F[N_i, N_m]: what of these lies in the range
-/// of J is the mode's own turning and no bend of the chart, but another mode that is nearly critical makes a large one of it.
-/// L itself where the modes do not move.
+/// Left borders B with L^T B = I that move as the matrix does along the path, D^2F[N_i, N_m]: what of these lies in the
+/// range of J is the mode's own turning and no bend of the chart, but another mode that is nearly critical makes a
+/// large one of it. L itself where the modes do not move.
 Matrix moving_with_path(const ReducedEquation& e, double h) {
   const auto D = second_derivative(e, e.k, h);
   if (!e.follows || !D) return e.L;

@@ -9,8 +9,8 @@
 
 namespace springfold::continuation {
 
-/// [dF/dx dF/dlambda] in unknowns U = (sqrt(w) x, lambda), for which the metric is Euclidean. Unknowns without weight get a
-/// small one.
+/// [dF/dx dF/dlambda] in unknowns U = (sqrt(w) x, lambda), for which the metric is Euclidean. Unknowns without weight
+/// get a small one.
 /// @param root     n + 1 square roots of the weights, the last is 1
 /// @param densely  with its entries in any case
 std::optional<ExtendedMatrix> jacobian_at(const Walker& walker, const Vector& U, const Vector& root,
@@ -19,8 +19,8 @@ std::optional<ExtendedMatrix> jacobian_at(const Walker& walker, const Vector& U,
 Vector metric_roots(const Vector& weights);
 Vector scaled_point(const CurvePoint& at, const Vector& root);
 
-/// What the rank of the extended Jacobian is must not depend on units: D_r [dF/dx dF/dlambda] D_c at a point, n x (n + 1); entries that vanish there only count as large as they are a little
-/// away.
+/// What the rank of the extended Jacobian is must not depend on units: D_r [dF/dx dF/dlambda] D_c at a point, n x (n +
+/// 1); entries that vanish there only count as large as they are a little away.
 struct EquilibratedJacobian {
   Matrix J{};
   Vector columns{};  ///< D_c: J y = 0 for (dx, dlambda) = D_c y

@@ -1,4 +1,5 @@
-// Sigma as a polynomial around a place of a step, and where its modes vanish there, each on its own. Private to the engine.
+// Sigma as a polynomial around a place of a step, and where its modes vanish there, each on its own. Private to the
+// engine.
 #pragma once
 
 #include <optional>
@@ -29,14 +30,14 @@ struct ZeroOfMode {
   Index m = 1;     ///< how many
 };
 
-/// The determinant of modes that vanish close together is their product, lost in its rounding long before they are. Sigma
-/// goes with the distance from the place as the pencil
+/// The determinant of modes that vanish close together is their product, lost in its rounding long before they are.
+/// Sigma goes with the distance from the place as the pencil
 ///
 ///     Sigma(t) + d Sigma'(t),
 ///
 /// and the distances d at which that is singular are the modes' own, each followed to its end.
-/// @returns in order; none where the modes within `reach`, and the window, are not all real, or are not told apart, by more
-///          than places are promised, though they do not vanish at one place
+/// @returns in order; none where the modes within `reach`, and the window, are not all real, or are not told apart, by
+///          more than places are promised, though they do not vanish at one place
 std::vector<ZeroOfMode> modes_near(const SigmaNear& near, double t, double reach);
 
 }  // namespace springfold::continuation

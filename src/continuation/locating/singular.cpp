@@ -64,9 +64,9 @@ double settled_on_step(const ZeroOf& touch) {
   return before && touch.after > just_inside ? just_inside : touch.at;
 }
 
-/// Are the rates of lambda at the samples, and on average from the first one to them, so much alike that the polynomial of
-/// may_turn() stays close to them? With a middle sample at a share of 0.3 to 0.7 of the step it deviates at most 11 times as
-/// much from a constant as they do (its Lebesgue constant).
+/// Are the rates of lambda at the samples, and on average from the first one to them, so much alike that the polynomial
+/// of may_turn() stays close to them? With a middle sample at a share of 0.3 to 0.7 of the step it deviates at most 11
+/// times as much from a constant as they do (its Lebesgue constant).
 bool is_even(const TestedStep& arc, Samples samples) {
   constexpr double alike = 0.04;
   const CurvePoint &from = *samples.front(), &second = *samples[1];
@@ -81,7 +81,8 @@ bool is_even(const TestedStep& arc, Samples samples) {
   });
 }
 
-/// Could lambda turn, or almost turn, between the samples? Its rate along the step is that of the polynomial through them.
+/// Could lambda turn, or almost turn, between the samples? Its rate along the step is that of the polynomial through
+/// them.
 bool may_turn(const TestedStep& arc, Samples samples) {
   if (is_even(arc, samples)) return false;
   constexpr int parts = 24;
@@ -219,7 +220,8 @@ std::string accounting(const TestedStep& arc, const std::vector<Candidate>& foun
     }
     return explained;
   };
-  // Just beside a special point rounding may have put the point where an eigenvalue has another sign: nothing is told there.
+  // Just beside a special point rounding may have put the point where an eigenvalue has another sign: nothing is told
+  // there.
   const auto fits_at = [&](double ds) {
     const std::optional<Index> counted = before;
     const Explained changes = since;
@@ -268,7 +270,8 @@ bool is_of_one_mode(const ExtendedMatrix& E) {
   return least.size() < 2 || (least[1] > told_apart && least[0] <= negligible_share * least[1]);
 }
 
-/// The curve at a zero, from points beside it: corrected right there a point may have moved along the mode that vanishes.
+/// The curve at a zero, from points beside it: corrected right there a point may have moved along the mode that
+/// vanishes.
 std::optional<CurvePoint> point_on_curve(const TestedStep& arc, const ZeroOf& zero) {
   const auto curve = curve_near(arc, zero.at, aside_share * arc.length());
   if (!curve) return std::nullopt;

@@ -23,8 +23,8 @@ TestedStep::TestedStep(const Walker& walker, Samples samples)
   for (const CurvePoint* p : samples) samples_[sample_count_++] = p;
 }
 
-/// Solved to rounding, where that can be: beside a singular point what Newton's method leaves at its tolerance moves a point
-/// by that over the least singular value, and so much is there no more than the value itself.
+/// Solved to rounding, where that can be: beside a singular point what Newton's method leaves at its tolerance moves a
+/// point by that over the least singular value, and so much is there no more than the value itself.
 std::optional<CurvePoint> TestedStep::corrected(double ds) const {
   if (!finest_) {
     finest_ = walker_;
@@ -132,8 +132,8 @@ std::optional<TestedStep::ModelError> TestedStep::error_at(double ds) const {
                     length_of(walker_, difference(tangent, expected.tangent))};
 }
 
-/// The largest entry, of unknowns without weight in the arc length as well: forces in closures may bend where positions do
-/// not.
+/// The largest entry, of unknowns without weight in the arc length as well: forces in closures may bend where positions
+/// do not.
 double TestedStep::largest_of(const Direction& d) const {
   const double entry = d.dx.size() > 0 ? d.dx.lpNorm<Eigen::Infinity>() : 0.0;
   return std::max(length_of(walker_, d), entry);
@@ -158,8 +158,8 @@ bool TestedStep::samples_lie_straight() const {
   return sample_count_ > 2;
 }
 
-/// Newton's first correction of places between the samples, with the middle's factors, is rounding: then the line is the
-/// curve all along the step, and the line's direction its tangent.
+/// Newton's first correction of places between the samples, with the middle's factors, is rounding: then the line is
+/// the curve all along the step, and the line's direction its tangent.
 bool TestedStep::is_straight() const {
   if (!samples_lie_straight()) return false;
   Workspace& memory = *walker_.memory;
@@ -268,8 +268,8 @@ double residual_at(const Walker& walker, const CurvePoint& p) {
                                 : std::numeric_limits<double>::infinity();
 }
 
-/// Between special points close to each other rounding decides about a corrected point. Where the curve interpolated from
-/// farther off satisfies F as well as it does, that one is nearer to the curve.
+/// Between special points close to each other rounding decides about a corrected point. Where the curve interpolated
+/// from farther off satisfies F as well as it does, that one is nearer to the curve.
 CurvePoint least_blurred(const TestedStep& step, const CurvePoint& corrected) {
   if (corrected.x.size() == 0)
     return corrected;  // a body that is driven in all its ways: lambda alone is left

@@ -73,8 +73,9 @@ std::vector<Singularity> multiple_zeros(const TestedStep& arc, double t, double 
   return best;
 }
 
-/// Does det Sigma cross zero here in the first order, as far as a third of the way to its next zero? Where m modes vanish it has a zero
-/// of order m at least: one that is as straight as this is of one mode, however small the others are.
+/// Does det Sigma cross zero here in the first order, as far as a third of the way to its next zero? Where m modes
+/// vanish it has a zero of order m at least: one that is as straight as this is of one mode, however small the others
+/// are.
 bool is_simple_zero(const TestedStep& arc, double at, Index m, double free) {
   constexpr double straight_at_least = 1.5,
                    straight_at_most = 3;  // 2 on a line, 4 and more where modes vanish together
@@ -95,9 +96,9 @@ bool is_simple_zero(const TestedStep& arc, double at, Index m, double free) {
          is_straight(value(at + far), right);
 }
 
-/// The step's points may be off by more than their scatter shows, beside a multiple point of a path that bends. The equations
-/// of one place at which all of these modes vanish do not know the step: do they contradict each other by as much as the
-/// modes are apart?
+/// The step's points may be off by more than their scatter shows, beside a multiple point of a path that bends. The
+/// equations of one place at which all of these modes vanish do not know the step: do they contradict each other by as
+/// much as the modes are apart?
 bool contradict_one_place(const TestedStep& arc, const SigmaNear& near,
                           const std::vector<ZeroOfMode>& modes) {
   const double first = modes.front().at, last = modes.back().at;
@@ -132,8 +133,8 @@ std::vector<Candidate> candidates_of(const TestedStep& arc, const SigmaNear& nea
   return result;
 }
 
-/// Several modes vanish close together, where the determinant is lost in its rounding: each of them on its own, or with those
-/// that vanish at the same place.
+/// Several modes vanish close together, where the determinant is lost in its rounding: each of them on its own, or with
+/// those that vanish at the same place.
 struct Apart {
   std::vector<Candidate>
       found{};  ///< none unless all of them are told apart, and as many as the determinant's signs ask for
@@ -161,8 +162,8 @@ Apart apart_at(const TestedStep& arc, const std::vector<ZeroOf>& zeros, Index mo
   return result;
 }
 
-/// Branch points where zeros of det Sigma lie together: each on its own where the modes are told apart, multiple ones if all
-/// entries vanish in one place, otherwise a simple one, where the zero is.
+/// Branch points where zeros of det Sigma lie together: each on its own where the modes are told apart, multiple ones
+/// if all entries vanish in one place, otherwise a simple one, where the zero is.
 std::vector<Candidate> branch_points_at(const TestedStep& arc, const std::vector<ZeroOf>& zeros,
                                         Index most, double free) {
   const double middle = 0.5 * (zeros.front().at + zeros.back().at);

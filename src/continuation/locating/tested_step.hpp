@@ -18,9 +18,9 @@ namespace springfold::continuation {
 /// Share of the step before and after it that is searched as well.
 inline constexpr double beyond = 0.03;
 
-/// One step, its points (each computed once), and its test functions. Points are predicted by the model that its samples
-/// define. Where that is exact, and a corrected point lies aside of it, or has another tangent, rounding decides about the
-/// point, beside a branch point: there the model is the better curve.
+/// One step, its points (each computed once), and its test functions. Points are predicted by the model that its
+/// samples define. Where that is exact, and a corrected point lies aside of it, or has another tangent, rounding
+/// decides about the point, beside a branch point: there the model is the better curve.
 class TestedStep {
  public:
   TestedStep(const Walker& walker, Samples samples);
@@ -123,8 +123,9 @@ class TestedStep {
   mutable bool passing_ = false;
 };
 
-/// One point of the curve between any two neighbouring special points on a step, kinks at its ends among them, with the number
-/// of negative eigenvalues there; none where they lie so close together that rounding decides on which branch it lies.
+/// One point of the curve between any two neighbouring special points on a step, kinks at its ends among them, with the
+/// number of negative eigenvalues there; none where they lie so close together that rounding decides on which branch it
+/// lies.
 /// @param places  arc lengths of the special points, in order
 std::vector<CurvePoint> points_between_special(const Walker& walker, Samples samples,
                                                const std::vector<double>& places);

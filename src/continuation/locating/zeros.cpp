@@ -34,7 +34,8 @@ class ZeroFinder {
   static constexpr double location = small_share * promised_place;
   /// A parabola that touches zero between two points of the grid is less than this off at them.
   static constexpr double touching = told_apart;
-  /// Shares of an interval: features that lie closer are one, so much around them is examined, and more is no smaller interval.
+  /// Shares of an interval: features that lie closer are one, so much around them is examined, and more is no smaller
+  /// interval.
   static constexpr double crowded = 0.15, margin = 0.07, most_of_it = 0.6;
   /// Values this many times the noise that was seen are hardly noise; so many times, they have a sign beyond doubt.
   static constexpr double sure = 4, clear = 10;
@@ -98,8 +99,8 @@ class ZeroFinder {
     return true;
   }
 
-  /// At an end that is zero itself the function may rise like any power, also one that no polynomial follows: a power law
-  /// at the surface where it begins to act. Without a change of sign beside it nothing lies there but that end.
+  /// At an end that is zero itself the function may rise like any power, also one that no polynomial follows: a power
+  /// law at the surface where it begins to act. Without a change of sign beside it nothing lies there but that end.
   bool comes_from_zero(const Interpolant& p) const {
     const auto is_zero = [&](double t) {
       const auto value = f_(t);
@@ -109,9 +110,10 @@ class ZeroFinder {
     return at_end && (p.values.minCoeff() >= 0 || p.values.maxCoeff() <= 0);
   }
 
-  /// Are signs beyond doubt at both places, and is a change between them a zero where no polynomial is accurate? Functions of
-  /// the caller may be steeper than anything that is resolved, or jump; lambda's rate has a corner at its zero where a spring
-  /// law with a kink in its slope has its extremum just there. A determinant beside its zero is noise.
+  /// Are signs beyond doubt at both places, and is a change between them a zero where no polynomial is accurate?
+  /// Functions of the caller may be steeper than anything that is resolved, or jump; lambda's rate has a corner at its
+  /// zero where a spring law with a kink in its slope has its extremum just there. A determinant beside its zero is
+  /// noise.
   bool may_bracket(double at_left, double at_right) const {
     if (noise_is_ == NoiseIs::doubt) return false;
     return noise_is_ == NoiseIs::threshold ||
@@ -230,8 +232,8 @@ class ZeroFinder {
     return fit.measured;
   }
 
-  /// Does an extremum reach zero? Rounding that is the same at neighbouring places is not seen as noise: one that stays on
-  /// its side of zero misses it only where its sign is beyond doubt.
+  /// Does an extremum reach zero? Rounding that is the same at neighbouring places is not seen as noise: one that stays
+  /// on its side of zero misses it only where its sign is beyond doubt.
   bool may_touch(const Fit& fit, double t, double value, double before) const {
     const bool within_bound = std::abs(value) <= std::max(noise_, 30 * fit.error);
     if (noise_is_ == NoiseIs::doubt || !within_bound) return within_bound;
@@ -239,8 +241,8 @@ class ZeroFinder {
     return std::abs(value) <= (stays ? clear / sure : 1) * measured_noise(fit, t);
   }
 
-  /// Between two zeros a function turns, whatever it is: where it is farthest from zero it has no zeros besides those to which
-  /// it falls on both sides. It is a touch only if these are one to what noise is seen.
+  /// Between two zeros a function turns, whatever it is: where it is farthest from zero it has no zeros besides those
+  /// to which it falls on both sides. It is a touch only if these are one to what noise is seen.
   bool turns_between_zeros(const Fit& fit, const std::vector<double>& knots, std::size_t i) const {
     const auto value = [&](std::size_t k) { return fit.polynomial->first(knots[k]); };
     const double v = value(i), left = value(i - 1), right = value(i + 1);
@@ -302,8 +304,8 @@ class ZeroFinder {
     return {.at = at, .before = before, .after = after, .off = off, .several = several};
   }
 
-  /// A polynomial whose error is below the bound of noise may be off by more than what noise there is, and its error is not
-  /// scattered: a narrower one around the zero shows whether it is. Its place is taken from the narrower one then.
+  /// A polynomial whose error is below the bound of noise may be off by more than what noise there is, and its error is
+  /// not scattered: a narrower one around the zero shows whether it is. Its place is taken from the narrower one then.
   ZeroOf sharpened(const Fit& fit, const ZeroOf& zero) const {
     const double reach = margin * (fit.polynomial->b - fit.polynomial->a);
     if (noise_is_ != NoiseIs::bound || zero.several) return zero;

@@ -30,8 +30,8 @@ bool within_reach(std::span<const double> values);
 using SampledFunction = std::function<std::optional<double>(double)>;
 
 /// What is said of noise. Threshold: values below it are zero. Bound: of what rounding may make; touches and pairs of
-/// zeros are told apart by the noise that is seen. Doubt: an extremum below it may be zero, since close to zeros there is
-/// more noise than can be seen; but only what is seen to be lost in noise is one feature.
+/// zeros are told apart by the noise that is seen. Doubt: an extremum below it may be zero, since close to zeros there
+/// is more noise than can be seen; but only what is seen to be lost in noise is one feature.
 enum class NoiseIs { threshold, bound, doubt };
 
 /// Samples f at ten points, interpolates, and looks where the interpolant is zero or stationary

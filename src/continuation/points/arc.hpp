@@ -27,10 +27,10 @@ class StepSamples {
 
 class Normalised;
 
-/// The polynomial through points of the curve and their tangents, in Newton's form with double knots. On one smooth piece the
-/// curve is a function u(t) = (x, lambda)(t) of the way t = tau_0 . (u - u_0) along the tangent at one of its points, the
-/// origin, with the rate du/dt = tau / (tau . tau_0). Nothing of F enters: the model passes smoothly through simple branch
-/// points, and goes on beyond its ends as the curve did before.
+/// The polynomial through points of the curve and their tangents, in Newton's form with double knots. On one smooth
+/// piece the curve is a function u(t) = (x, lambda)(t) of the way t = tau_0 . (u - u_0) along the tangent at one of its
+/// points, the origin, with the rate du/dt = tau / (tau . tau_0). Nothing of F enters: the model passes smoothly
+/// through simple branch points, and goes on beyond its ends as the curve did before.
 class ArcModel {
  public:
   static constexpr std::size_t most_nodes = 10;
@@ -74,8 +74,9 @@ double distance_of(const Walker& walker, const ArcModel& model, const CurvePoint
 /// Points of a curve on one smooth piece, in order.
 using Stretch = std::vector<CurvePoint>;
 
-/// The points of a curve, in the engine's own units, parted at kinks and where the piece changes, up to the special point that
-/// ended it. Each is seen from the one before: a closed curve may end at another copy of its start, whole periods away.
+/// The points of a curve, in the engine's own units, parted at kinks and where the piece changes, up to the special
+/// point that ended it. Each is seen from the one before: a closed curve may end at another copy of its start, whole
+/// periods away.
 std::vector<Stretch> smooth_stretches(const Walker& walker, const Normalised& own,
                                       const Curve& curve);
 

@@ -27,8 +27,8 @@ struct PointGap {
   bool goes_on = false;  ///< `from` is the end of the gap before, on one smooth curve
 };
 
-/// The gaps of a curve, filled one after the other. Within one the curve is a function of the way along the tangent where
-/// it begins.
+/// The gaps of a curve, filled one after the other. Within one the curve is a function of the way along the tangent
+/// where it begins.
 class Filler {
  public:
   using Nodes = std::vector<const CurvePoint*>;
@@ -89,8 +89,8 @@ class Filler {
     return t > 0 && t < length_ ? &*gap_->middle : nullptr;
   }
 
-  /// The gap's ends, and points of the curve around it, as far as it turns little: a quarter of a turn away it is no function
-  /// of the way any more, and polynomials see that from afar.
+  /// The gap's ends, and points of the curve around it, as far as it turns little: a quarter of a turn away it is no
+  /// function of the way any more, and polynomials see that from afar.
   Nodes nodes_of(const Nodes& around) const {
     const CurvePoint& from = gap_->from;
     Nodes nodes{&from, &gap_->to};
@@ -170,8 +170,8 @@ class Filler {
     }
   }
 
-  /// Where another branch is nearer than the model is exact, the corrector may find that. A point with another number of
-  /// negative eigenvalues than its place in the gap asks for is not of this curve.
+  /// Where another branch is nearer than the model is exact, the corrector may find that. A point with another number
+  /// of negative eigenvalues than its place in the gap asks for is not of this curve.
   bool is_of_gap(const CurvePoint& point) const {
     std::optional<Index> expected;
     if (gap_->counted) expected = gap_->from.negative;
@@ -228,8 +228,8 @@ std::vector<PointGap> gaps_of(const std::vector<Stretch>& stretches, const Curve
   return gaps;
 }
 
-/// Ends of the gaps before and behind on the same smooth curve, and points between them, the nearest ones first, as many
-/// as a polynomial can use: with more of them rounding of the tangents grows faster than the error falls.
+/// Ends of the gaps before and behind on the same smooth curve, and points between them, the nearest ones first, as
+/// many as a polynomial can use: with more of them rounding of the tangents grows faster than the error falls.
 std::vector<const CurvePoint*> points_around(const std::vector<PointGap>& gaps, std::size_t i) {
   constexpr std::size_t most = 7;
   std::vector<const CurvePoint*> before, behind, points;

@@ -21,8 +21,8 @@ struct Interpolant {
 
   Vector operator()(double t) const;
   Vector slope(double t) const;
-  /// Two places half-way between neighbouring samples, where the polynomial is farthest off: one on each side of the middle
-  /// and not opposite to each other.
+  /// Two places half-way between neighbouring samples, where the polynomial is farthest off: one on each side of the
+  /// middle and not opposite to each other.
   std::array<double, 2> checks() const;
   /// The same for functions with one value, without memory from the heap.
   double first(double t) const;

@@ -49,7 +49,8 @@ bool are_in_different_pieces(const Walker& walker, const CurvePoint& a, const Cu
 /// Does a located special point lie on the surfaces of these switches?
 bool lies_on(const Walker& walker, const CurvePoint& point, const std::vector<Index>& switches);
 
-/// The point `target` of the branch, if the step from -> to passes it. Given with the tangent and the arc length of this passage.
+/// The point `target` of the branch, if the step from -> to passes it. Given with the tangent and the arc length of
+/// this passage.
 std::optional<CurvePoint> passes(const Walker& walker, const CurvePoint& target,
                                  const CurvePoint& from, const CurvePoint& to);
 

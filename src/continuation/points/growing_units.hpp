@@ -14,8 +14,8 @@ namespace springfold::continuation {
 ///     [dG/dy] = [ 1/r    ] [ A  B' ] [ 1    ] = [ A/r  B'  ]      row i belongs to unknown i; what is symmetric stays so
 ///               [      1 ] [ B  C  ] [    r ]   [ B    C r ]
 ///
-/// A matrix A that grows with lambda, and forces that do, are then of moderate size all along. Curves are the same ones;
-/// their tangents inside are rates by an arc length in which mu stands for lambda.
+/// A matrix A that grows with lambda, and forces that do, are then of moderate size all along. Curves are the same
+/// ones; their tangents inside are rates by an arc length in which mu stands for lambda.
 class GrowingUnits {
  public:
   explicit GrowingUnits(ProblemView problem);

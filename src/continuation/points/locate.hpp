@@ -12,8 +12,8 @@ namespace springfold::continuation {
 /// A point of the curve at distance ds from `from` along its tangent, without judging the step.
 std::optional<CurvePoint> point_at(const Walker& walker, const CurvePoint& from, double ds);
 
-/// A point of the curve near the model's point at the way t from its origin. Beside a branch point the corrector stays on
-/// the curve so. @returns nothing also where the tangent found is not that of the model: another branch's
+/// A point of the curve near the model's point at the way t from its origin. Beside a branch point the corrector stays
+/// on the curve so. @returns nothing also where the tangent found is not that of the model: another branch's
 std::optional<CurvePoint> point_near(const Walker& walker, const ArcModel& model,
                                      const CurvePoint& origin, double t);
 

@@ -172,8 +172,8 @@ Judged judge(ProblemView problem, const Piece& piece, const NewtonOptions& optio
   // correction has shown.
   const double left_over =
       before > 0 ? at.residual_norm * (at.corrections.back() / before) : infinity;
-  // Where the matrix is nearly singular, a residual of rounding's size may leave much to correct. It is rounding only when
-  // it gets no smaller.
+  // Where the matrix is nearly singular, a residual of rounding's size may leave much to correct. It is rounding only
+  // when it gets no smaller.
   const auto at_its_least = [&] {
     return !(before > 0) || left_over <= exact_model * scale ||
            at.residual_norm > still_falls * before;

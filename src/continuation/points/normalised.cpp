@@ -60,8 +60,8 @@ double Normalised::largest_at(const Vector& x, double lambda, const Piece& piece
   return std::max(largest, K.cwiseAbs().maxCoeff());
 }
 
-/// The same of what is left where lambda is orders of magnitude larger than at the start: of all but the stiffness that it
-/// finds there, and does not change. 0: not known.
+/// The same of what is left where lambda is orders of magnitude larger than at the start: of all but the stiffness that
+/// it finds there, and does not change. 0: not known.
 double Normalised::largest_that_stays(const Vector& x, double lambda, const Piece& piece) const {
   constexpr double d = distances_beside.back();
   Linearisation at, aside;

@@ -17,11 +17,10 @@ namespace springfold::continuation {
 ///     x = unit * y,   G = force unit * F (symmetric problems: dG/dy stays symmetric)  or  force * F,
 ///     h_j = surface_j g_j
 ///
-/// The metric gives the units: its weights become numbers in [1, 4). The largest entry of
-/// [dG/dy dG/dlambda] at and near the start becomes about 1, and so does the gradient of each h_j.
-/// Unknowns of weight zero keep their unit. lambda and the arc length are the caller's, but where the problem has lambda
-/// measured otherwise (LambdaMeasure): mu stands inside for lambda then, and tangents outside are rates by the arc length
-/// of y and mu.
+/// The metric gives the units: its weights become numbers in [1, 4). The largest entry of [dG/dy dG/dlambda] at and
+/// near the start becomes about 1, and so does the gradient of each h_j. Unknowns of weight zero keep their unit.
+/// lambda and the arc length are the caller's, but where the problem has lambda measured otherwise (LambdaMeasure): mu
+/// stands inside for lambda then, and tangents outside are rates by the arc length of y and mu.
 class Normalised {
  public:
   /// @param x, lambda, piece  a point of the curve

@@ -65,8 +65,8 @@ class Regular {
   Vector rows_{}, columns_{}, u_{};
 };
 
-/// Numbers between 1/2 and 3/2 without symmetry or pattern, the same everywhere: sampling.hpp's are spread evenly, and loads
-/// that alternate evenly leave the softest motions of a mechanism alone.
+/// Numbers between 1/2 and 3/2 without symmetry or pattern, the same everywhere: sampling.hpp's are spread evenly, and
+/// loads that alternate evenly leave the softest motions of a mechanism alone.
 Vector irregular_loads(Index n) {
   Vector v(n);
   std::uint64_t state = 0x9E3779B97F4A7C15;
@@ -142,9 +142,9 @@ double critical_way(ProblemView problem, const Vector& x, double lambda, const P
   return way < farther * d ? way : infinity;
 }
 
-/// Newton's method at a fixed lambda that goes on also where the second correction is larger than the first, that across a
-/// stiff member is tiny and says nothing of the others, and ends where a place has no more to be corrected: residuals are
-/// rounding of stiff members.
+/// Newton's method at a fixed lambda that goes on also where the second correction is larger than the first, that
+/// across a stiff member is tiny and says nothing of the others, and ends where a place has no more to be corrected:
+/// residuals are rounding of stiff members.
 std::optional<Vector> solution_near(ProblemView problem, Vector x, double lambda,
                                     const Piece& piece) {
   constexpr int steps = 12;
@@ -160,9 +160,10 @@ std::optional<Vector> solution_near(ProblemView problem, Vector x, double lambda
   return std::nullopt;
 }
 
-/// Is there no critical point where K and its rate promise one? A stiff member that turns takes its stiffness along, and the
-/// rate of K alone tells a loss of it. The curve then goes on beyond a clear motion to both sides, about where its tangent
-/// leads, with as many negative eigenvalues. @param moved  |dx|   @pre the promised way is shorter than that motion
+/// Is there no critical point where K and its rate promise one? A stiff member that turns takes its stiffness along,
+/// and the rate of K alone tells a loss of it. The curve then goes on beyond a clear motion to both sides, about where
+/// its tangent leads, with as many negative eigenvalues. @param moved |dx| @pre the promised way is shorter than that
+/// motion
 bool is_broken_promise(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
                        const Vector& dx, double moved, Regular& here) {
   constexpr double beyond = 1.5, about = 0.5;
@@ -183,8 +184,9 @@ bool is_broken_promise(ProblemView problem, const Vector& x, double lambda, cons
   return true;
 }
 
-/// |dlambda| for |dx| = 1 along the parabola of a curve that turns just beside the point: through it and a corrected point
-/// `clear_motion` away on both sides. Where its vertex lies within twice that, what the tangent says holds nowhere else.
+/// |dlambda| for |dx| = 1 along the parabola of a curve that turns just beside the point: through it and a corrected
+/// point `clear_motion` away on both sides. Where its vertex lies within twice that, what the tangent says holds
+/// nowhere else.
 /// @returns nothing where the curve goes on straight
 std::optional<double> bend_beside(ProblemView problem, const Vector& x, double lambda,
                                   const Piece& piece, const Vector& dx, double moved) {
@@ -201,9 +203,10 @@ std::optional<double> bend_beside(ProblemView problem, const Vector& x, double l
   return 2 * bend * moved * 2 * clear_motion >= 1 ? std::optional(bend) : std::nullopt;
 }
 
-/// Is the least stiffness, small as it may be beside others, that of soft members, and not what loads leave that nearly cancel
-/// it? Multipliers that act on ways of length 1 take or give as much stiffness as they are large, and where they are a thousand
-/// times what is left they may have cancelled the rest; special points are placed to `poor` at worst, in parts of lambda.
+/// Is the least stiffness, small as it may be beside others, that of soft members, and not what loads leave that nearly
+/// cancel it? Multipliers that act on ways of length 1 take or give as much stiffness as they are large, and where they
+/// are a thousand times what is left they may have cancelled the rest; special points are placed to `poor` at worst, in
+/// parts of lambda.
 bool is_of_soft_members(const Vector& weights, const Vector& x, double lambda, double way,
                         double stiffness) {
   double multiplier = 0;
@@ -212,9 +215,9 @@ bool is_of_soft_members(const Vector& weights, const Vector& x, double lambda, d
   return poor * std::abs(lambda) <= way && tiny_share * multiplier <= stiffness;
 }
 
-/// Is dF/dx singular, to what special points are located to at worst, or where its members are soft at best? Its entries
-/// count beside what they are a little aside: a row or column that vanishes at the point would otherwise look like one in a
-/// small unit.
+/// Is dF/dx singular, to what special points are located to at worst, or where its members are soft at best? Its
+/// entries count beside what they are a little aside: a row or column that vanishes at the point would otherwise look
+/// like one in a small unit.
 bool is_singular(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
                  bool is_soft) {
   if (problem.structured()) return false;

@@ -39,13 +39,14 @@ struct StepResult : StepReport {
   std::optional<CurvePoint> point{};  ///< empty: refused
 };
 
-/// A point of the curve near point.x and point.lambda, in their place: residual at tolerance, tangent along `reference`,
-/// inertia counted. Corrects within the hyperplane across `reference`. @param report  for who asks how, or why not
+/// A point of the curve near point.x and point.lambda, in their place: residual at tolerance, tangent along
+/// `reference`, inertia counted. Corrects within the hyperplane across `reference`. @param report for who asks how, or
+/// why not
 bool find_point(const Walker& walker, const Piece& piece, const Direction& reference,
                 CurvePoint& point, StepReport* report = nullptr);
 
-/// What rounding may leave of F at a point, row by row: some units of the terms of that row, with lengths of unknowns against
-/// max(1, their size), unknowns without a length as they are.
+/// What rounding may leave of F at a point, row by row: some units of the terms of that row, with lengths of unknowns
+/// against max(1, their size), unknowns without a length as they are.
 Vector rounding_of_rows(const Linearisation& at, const Vector& weights, const Vector& x,
                         double lambda);
 
