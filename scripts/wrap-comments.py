@@ -6,7 +6,6 @@ are indented, and comments behind code stay. Without files: all of the repositor
 with 1 if a line of a comment is longer.
 """
 import re
-import subprocess
 import sys
 from pathlib import Path
 
@@ -80,8 +79,8 @@ def wrap(text):
 
 def main(arguments):
     check = "--check" in arguments
-    names = [a for a in arguments if a != "--check"] or subprocess.run(
-        ["git", "ls-files", "*.cpp", "*.hpp"], capture_output=True, text=True, check=True).stdout.split()
+    names = [a for a in arguments if a != "--check"] or sorted(
+        str(path) for folder in ("include", "src", "tests", "bench") for path in Path(folder).rglob("*.?pp"))
     changed = 0
     for name in names:
         path = Path(name)
