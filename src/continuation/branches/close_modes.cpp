@@ -40,28 +40,31 @@ bool belongs_to(const Walker& walker, const Junction& junction, const CurvePoint
          length_of(walker, between(walker, junction.point, point)) <= junction.reach;
 }
 
-bool take_in(const Walker& walker, const DiagramOptions& options, const Hit& hit,
-             Junction& junction) {
+TakenIn take_in(const Walker& walker, const DiagramOptions& options, const Hit& hit,
+                Junction& junction) {
   const CurvePoint& point = junction.point;
   const bool are_simple = junction.kind == HitKind::branch_point && junction.multiplicity == 1 &&
                           hit.kind == HitKind::branch_point && hit.multiplicity == 1;
-  if (!are_simple || length_of(walker, between(walker, point, hit.point)) > together ||
-      !active_switches(walker, point.x, point.lambda).empty() ||
+  const double apart = length_of(walker, between(walker, point, hit.point));
+  if (!are_simple || apart > together || !active_switches(walker, point.x, point.lambda).empty() ||
       (options.left_out && !options.left_out(point).empty()))
-    return false;
+    return TakenIn::no;
+  // Branches on which both take part begin on the others, at about the root of the distance at most.
+  const double nearest = told_apart * told_apart * scale_of(point);
+  const TakenIn otherwise = apart <= nearest ? TakenIn::untold : TakenIn::no;
   const Exits exits =
       exits_of_close_modes(walker, point, [&](const CurvePoint& start, const Direction& tangent) {
         return before_next_surface(walker, point, {}, start, tangent);
       });
-  if (!exits.complete) return false;
+  if (!exits.complete) return otherwise;
   std::vector<Way> ways = ways_of(walker, junction, exits);
-  if (ways.empty()) return false;
+  if (ways.empty()) return otherwise;
   junction.ways = std::move(ways);
   junction.multiplicity = 2;
   junction.reach = blurred * scale_of(point);
   junction.complete = true;
   junction.why.clear();
-  return true;
+  return TakenIn::yes;
 }
 
 }  // namespace springfold::continuation

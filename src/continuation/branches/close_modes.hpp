@@ -10,9 +10,11 @@ namespace springfold::continuation {
 /// not be told apart? The branches of both modes, and those on which both take part, are then ways of the first one:
 /// where the others begin on them is nearer still. It gets these ways, and the reach within which special points belong
 /// to it; ways that it had keep their numbers.
-/// @returns false where the branches around both cannot be told, or are none of this; the junction is then as it was
-bool take_in(const Walker& walker, const DiagramOptions& options, const Hit& hit,
-             Junction& junction);
+/// @returns whether it has; `untold` where it should have, but the branches around both are not the same on all spheres:
+///          those on which both take part may begin nearer to the junction than its own ways do
+enum class TakenIn { yes, no, untold };
+TakenIn take_in(const Walker& walker, const DiagramOptions& options, const Hit& hit,
+                Junction& junction);
 
 /// Does this point belong to the junction?
 bool belongs_to(const Walker& walker, const Junction& junction, const CurvePoint& point);

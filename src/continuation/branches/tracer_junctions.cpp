@@ -46,12 +46,19 @@ bool Tracer::belongs_to_last(const Hit& hit) {
                                 : met_.back().junction;
   if (last < 0) return false;
   if (belongs_to(walker_, at(last), hit.point)) return true;
+  TakenIn taken = TakenIn::no;
   try {
-    if (!take_in(walker_, options_, hit, at(last))) return false;
+    taken = take_in(walker_, options_, hit, at(last));
   } catch (const Interrupted&) {
     interrupted_ = true;
-    return false;
   }
+  if (taken == TakenIn::untold && at(last).complete) {
+    at(last).complete = false;
+    at(last).why = "another mode vanishes beside this point, nearer than their ways are told apart";
+    doubt(DoubtKind::ways_missing, "branches may be missing: " + at(last).why, at(last).point,
+          last);
+  }
+  if (taken != TakenIn::yes) return false;
   std::erase_if(diagram_.doubts, [last](const Doubt& doubt) {
     return doubt.junction == last &&
            (doubt.kind == DoubtKind::ways_missing || doubt.kind == DoubtKind::no_such_way);
