@@ -37,6 +37,7 @@ class Watcher {
   void watch(Curve& curve) {
     if (force_ == nullptr) return;
     std::vector<CurvePoint> stations = curve.points;
+    if (!curve.hits.empty() && curve.hits.back().stops) stations.push_back(curve.hits.back().point);
     for (const Hit& hit : curve.hits)
       for (const CurvePoint& side : hit.leaving) {
         if (hit.leaving.size() != 1) continue;  // there the trace ended
@@ -67,7 +68,9 @@ class Watcher {
     for (const Hit& hit : curve.hits) {
       if (!is_special(hit)) continue;
       const Hit* const before = std::exchange(last, &hit);
-      if (before == nullptr) continue;
+      if (before == nullptr || before->kind == HitKind::unresolved ||
+          hit.kind == HitKind::unresolved)
+        continue;
       const CurvePoint& a = before->leaving.size() == 1 ? before->leaving.front() : before->point;
       const CurvePoint& b = hit.point;
       const bool are_parted =
@@ -85,6 +88,7 @@ class Watcher {
     std::stable_sort(curve.points.begin(), curve.points.end(), is_before<CurvePoint>);
   }
 
+ private:
   template <class Item>
   static bool is_before(const Item& a, const Item& b) {
     if constexpr (std::is_same_v<Item, Hit>)

@@ -239,14 +239,17 @@ class Threshold {
     constexpr double parted =
         1e-6;  // of the size of the state: values next to each other move it far less
     const auto end = [&](double value) {
-      const continuation::CurvePoint last =
-          base_path(*curves_.at(value), true, observer_).forward.points.back();
-      Vector state(last.x.size() + 1);
+      const BasePath path = base_path(*curves_.at(value), true, observer_);
+      Vector state;
+      if (!path.problem.empty() || path.forward.points.empty()) return state;
+      const continuation::CurvePoint& last = path.forward.points.back();
+      state.resize(last.x.size() + 1);
       state << last.x, last.lambda;
       return state;
     };
     const Vector from = end(a), to = end(b);
-    return (from - to).norm() > parted * std::max(1.0, from.norm());
+    return from.size() > 0 && from.size() == to.size() &&
+           (from - to).norm() > parted * std::max(1.0, from.norm());
   }
 
   /// The point of a curve whose parameter comes nearest to a value before it.

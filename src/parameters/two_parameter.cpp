@@ -163,9 +163,8 @@ class Follower {
     };
     std::vector<CurvePoint> middles;
     Curve curve = trace_with_middles(system, X, mu, ray, events, options_, observe, middles);
-    const bool broken = lost && system.unfolding(curve.points.back().x) > promised_place;
-    if (broken || parted)
-      leave_out_after(broken ? 0 : std::max<std::size_t>(curve.points.size(), 2) - 2, curve);
+    const bool broken = lost && system.unfolding(curve.points.back().x) > kept_within;
+    if (lost) leave_out_last(curve);
     if (back.found()) close(*back.found(), curve);
     for (auto* points : {&curve.points, &middles})
       for (CurvePoint& point : *points) point.s += length_;
@@ -189,8 +188,9 @@ class Follower {
   }
 
   /// Where modes have parted no eigenvalue is zero; where the branch is not kept there are no equilibria.
-  static void leave_out_after(std::size_t last, Curve& curve) {
-    curve.points.resize(last + 1);
+  static void leave_out_last(Curve& curve) {
+    if (curve.points.size() < 2) return;
+    curve.points.pop_back();
     std::erase_if(curve.hits,
                   [end = curve.points.back().s](const Hit& hit) { return hit.point.s > end; });
   }

@@ -50,8 +50,8 @@ struct Junction {
   bool complete = true;  ///< false: ways may be missing; `why` says what went wrong
   std::string why{};
   int start = -1;  ///< the caller's start that is this point
-  /// Arc length within which other special points belong to this junction; 0: none does. Modes that vanish close
-  /// together are branch points of their own on the curve, and one junction, at the first of them.
+  /// Distance within which other branch points of the same piece belong to this junction; 0: none does. Modes that
+  /// vanish close together are branch points of their own on the curve, and one junction, at the first of them.
   double reach = 0;
 };
 

@@ -6,17 +6,16 @@
 
 namespace springfold::continuation {
 
-/// Has a branch point, met right after another one, its own mode, which vanishes as near to it as special points need
-/// not be told apart? The branches of both modes, and those on which both take part, are then ways of the first one:
-/// where the others begin on them is nearer still. It gets these ways, and the reach within which special points belong
-/// to it; ways that it had keep their numbers.
-/// @returns whether it has; `untold` where it should have, but the branches around both are not the same on all spheres:
-///          those on which both take part may begin nearer to the junction than its own ways do
+/// Has a branch point, met right after another one, its own mode, which vanishes within `together` of it, and no third
+/// one? The branches of both modes, and those on which both take part, are then ways of the first one: where these
+/// begin on the others is nearer still. It gets these ways, and its reach; ways that it had keep their numbers.
+/// @param junction  just found, by the branch that is traced: none of its ways belongs to another one
+/// @returns whether it has; `untold` where branches on which both modes take part may be missed
 enum class TakenIn { yes, no, untold };
 TakenIn take_in(const Walker& walker, const DiagramOptions& options, const Hit& hit,
                 Junction& junction);
 
-/// Does this point belong to the junction?
-bool belongs_to(const Walker& walker, const Junction& junction, const CurvePoint& point);
+/// Does this special point belong to a junction that has taken in another one?
+bool belongs_to(const Walker& walker, const Junction& junction, const Hit& hit);
 
 }  // namespace springfold::continuation

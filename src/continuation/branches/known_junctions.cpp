@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/branches/close_modes.hpp"
 #include "continuation/points/coincide.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 
-int junction_where(const Walker& walker, const std::vector<Junction>& junctions,
-                   const CurvePoint& point, const std::vector<Met>& met, double same_place) {
+int junction_where(const Walker& walker, const std::vector<Junction>& junctions, const Hit& hit,
+                   const std::vector<Met>& met, double same_place) {
+  const CurvePoint& point = hit.point;
   const double same = same_place * scale_of(point);
   const auto just_passed = [&](int number) {
     return std::any_of(met.begin(), met.end(), [&](const Met& m) {
@@ -20,7 +22,7 @@ int junction_where(const Walker& walker, const std::vector<Junction>& junctions,
   double nearest = infinity;
   for (std::size_t i = 0; i < junctions.size(); ++i) {
     const double distance = length_of(walker, between(walker, junctions[i].point, point));
-    const bool is_here = distance <= std::max(same, junctions[i].reach);
+    const bool is_here = distance <= same || belongs_to(walker, junctions[i], hit);
     if (!is_here || distance > nearest || just_passed(static_cast<int>(i)) ||
         are_in_different_pieces(walker, junctions[i].point, point))
       continue;

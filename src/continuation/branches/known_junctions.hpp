@@ -18,8 +18,8 @@ struct Met {
 /// two passages of one point lies a whole loop.
 /// @param met         by the curve so far
 /// @param same_place  distance up to which points are the same, relative to their size
-int junction_where(const Walker& walker, const std::vector<Junction>& junctions,
-                   const CurvePoint& point, const std::vector<Met>& met, double same_place);
+int junction_where(const Walker& walker, const std::vector<Junction>& junctions, const Hit& hit,
+                   const std::vector<Met>& met, double same_place);
 
 /// Number of the way that leads most nearly into this direction, or -1.
 int way_along(const Walker& walker, const Junction& junction, const Direction& direction,

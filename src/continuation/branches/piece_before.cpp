@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "continuation/branches/close_modes.hpp"
 #include "continuation/branches/without_surfaces.hpp"
 #include "continuation/kinks/beside.hpp"
 #include "continuation/kinks/kink.hpp"
@@ -100,13 +101,6 @@ struct WayBack {
   bool reached = false;    ///< the last hit of `curve` is the junction itself
 };
 
-/// How near to a junction special points need not be told apart from it? Where several modes vanish together, or
-/// nearly, ways on which more than one takes part begin beside it, on others of its ways.
-double own_reach(const Junction& junction) {
-  const bool is_multiple = junction.kind == HitKind::branch_point && junction.multiplicity > 1;
-  return is_multiple ? std::max(junction.reach, told_apart * scale_of(junction.point)) : 0;
-}
-
 /// Its steps depend on the length of the gap only, so that it is the same at every step length of the caller.
 WayBack trace_back(const Walker& walker, const std::vector<Event>& events,
                    const DiagramOptions& options, const Junction& at, const Way& way, double gap) {
@@ -124,7 +118,8 @@ WayBack trace_back(const Walker& walker, const std::vector<Event>& events,
     const double blur = level                             ? aside_share
                         : hit.kind == HitKind::unresolved ? small_share
                                                           : tiny_share;
-    return distance <= std::max({options.same_place * scale, blur * gap, own_reach(at)});
+    return distance <= std::max(options.same_place * scale, blur * gap) ||
+           belongs_to(walker, at, hit);
   };
   const auto at_hit = [&](const Hit& hit) {
     back.reached = is_junction_itself(hit);
@@ -282,7 +277,7 @@ PieceBefore piece_before(const Walker& walker, const std::vector<Event>& events,
   WayBack back = trace_back(walker, seen_from_behind(events), options, at, way, gap);
   const auto found = length_back(walker, junction, way, gap, tolerance, back);
   if (!found) {
-    piece.reached = gap <= std::max(told_apart, own_reach(at));
+    piece.reached = gap <= std::max(told_apart, at.reach);
     return piece;
   }
   piece.length = *found;

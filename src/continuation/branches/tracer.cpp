@@ -77,7 +77,7 @@ bool Tracer::ends_at_once(const Task& task, Curve& curve) {
 std::optional<Curve> Tracer::end_of(PieceBefore& piece) {
   const int junction = diagram_.branches[static_cast<std::size_t>(current_)].junction;
   std::erase_if(piece.hits, [&](const Hit& hit) {
-    return is_junction(hit) && junction >= 0 && belongs_to(walker_, at(junction), hit.point);
+    return junction >= 0 && belongs_to(walker_, at(junction), hit);
   });
   for (std::size_t i = 0; i < piece.hits.size(); ++i) {
     const bool stops = piece.hits[i].stops;

@@ -37,12 +37,13 @@ class Tracer {
   void run();
   void give_up(const Task& task);
   int junction_at(const Hit& hit) const {
-    return junction_where(walker_, diagram_.junctions, hit.point, met_, options_.same_place);
+    return junction_where(walker_, diagram_.junctions, hit, met_, options_.same_place);
   }
   int add_junction(const Hit& hit);
   void add_ordinary_start(const CurvePoint& point, const Rays& rays, int number);
   void queue_ways(int junction);
   bool belongs_to_last(const Hit& hit);
+  bool is_fresh(int junction) const;
   Met passage_of(const Hit& hit, int junction, bool ends);
   bool take_way(int junction, int way);
   bool at_hit(const Hit& hit, bool ends = false);

@@ -8,6 +8,7 @@
 #include "continuation/kinks/kink.hpp"
 #include "continuation/points/coincide.hpp"
 #include "springfold/continuation/interrupted.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
 
@@ -39,13 +40,13 @@ void Tracer::queue_ways(int number) {
           {-1, number, static_cast<int>(w), junction.ways[w].start, junction.depth + 1});
 }
 
-/// Does a special point belong to the junction that was passed right before it, or at which the branch begins? Where
-/// that one takes it in its ways are queued anew.
+/// Does a special point belong to the junction that the branch has passed right before it? Where that one takes it in
+/// its ways are queued anew.
 bool Tracer::belongs_to_last(const Hit& hit) {
-  const int last = met_.empty() ? diagram_.branches[static_cast<std::size_t>(current_)].junction
-                                : met_.back().junction;
-  if (last < 0) return false;
-  if (belongs_to(walker_, at(last), hit.point)) return true;
+  if (met_.empty() || hit.point.s - met_.back().s > blurred) return false;
+  const int last = met_.back().junction;
+  if (belongs_to(walker_, at(last), hit)) return true;
+  if (!is_fresh(last)) return false;
   TakenIn taken = TakenIn::no;
   try {
     taken = take_in(walker_, options_, hit, at(last));
@@ -63,15 +64,28 @@ bool Tracer::belongs_to_last(const Hit& hit) {
     return doubt.junction == last &&
            (doubt.kind == DoubtKind::ways_missing || doubt.kind == DoubtKind::no_such_way);
   });
-  if (!met_.empty()) {
-    const double s = met_.back().s;
-    met_.back() = passage_of(hit, last, false);
-    met_.back().s = s;
-    if (met_.back().way_on >= 0) take_way(last, met_.back().way_on);
-  }
+  const double s = met_.back().s;
+  met_.back() = passage_of(hit, last, false);
+  met_.back().s = s;
+  if (met_.back().way_on >= 0) take_way(last, met_.back().way_on);
   std::erase_if(queue_, [last](const Task& task) { return task.junction == last; });
   queue_ways(last);
   return true;
+}
+
+/// Has this junction been found by the branch that is traced, no other one running along its ways, and no other one
+/// within the spheres on which ways of close modes are told?
+bool Tracer::is_fresh(int number) const {
+  const auto& junctions = diagram_.junctions;
+  const Junction& own = junctions[static_cast<std::size_t>(number)];
+  const bool is_own = std::all_of(own.ways.begin(), own.ways.end(), [this](const Way& way) {
+    return way.branch < 0 || way.branch == current_;
+  });
+  return is_own && own.start < 0 &&
+         std::none_of(junctions.begin(), junctions.end(), [&](const Junction& other) {
+           return &other != &own &&
+                  length_of(walker_, between(walker_, own.point, other.point)) <= 4 * told_apart;
+         });
 }
 
 /// By which ways of its junction the branch comes to a special point and leaves it; the first one is its own now.

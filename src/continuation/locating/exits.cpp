@@ -263,6 +263,30 @@ Exits exits_of(const ReducedEquation& e, const Search& search, Leaving leaving,
   return result;
 }
 
+/// How many modes vanish along the curve within twice the largest of the spheres? With E = [J; tau^T] some way back,
+/// which is regular, and here, (1 - s) E_back + s E_here is singular at the places s of the modes, 1 is here.
+Index modes_beside(const Walker& walker, const CurvePoint& at) {
+  constexpr double within = 8 * told_apart, back = within / (2 * aside_share);
+  const Vector root = metric_roots(walker.weights), U = scaled_point(at, root);
+  const Vector tau =
+      scaled_point({.x = at.tangent.dx, .lambda = at.tangent.dlambda}, root).normalized();
+  const auto E = [&](double distance) -> std::optional<Matrix> {
+    const auto J = jacobian_at(walker, U - distance * tau, root, at.piece, true);
+    if (!J) return std::nullopt;
+    Matrix extended(U.size(), U.size());
+    extended << J->dense, tau.transpose();
+    return extended;
+  };
+  const auto here = E(0), behind = E(back);
+  if (!here || !behind) return 0;
+  const Matrix change = Lu(*behind).solve(Matrix(*behind - *here));
+  if (!change.allFinite()) return 0;
+  Index count = 0;
+  for (const auto& rate : eigenvalues(change))
+    if (std::abs(1.0 - rate) * back <= within * std::abs(rate)) ++count;
+  return count;
+}
+
 }  // namespace
 
 Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
@@ -289,13 +313,16 @@ Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
 
 Exits exits_of_close_modes(const Walker& walker, const CurvePoint& at,
                            const NearEnough& near_enough) {
-  if (at.x.size() < 2 || (walker.problem.structured() && at.x.size() > most_entries)) return {};
+  if (at.x.size() < 2 || walker.problem.structured() || modes_beside(walker, at) != 2)
+    return {.complete = false, .why = "not two modes alone vanish beside this point"};
   const auto e = reduce(walker, at, 2);
   if (!e) return {.complete = false, .why = "the equations cannot be expanded at this point"};
-  constexpr int spheres = 3;  // twice and four times as far out there must be the same
-  const double rho = 4 * told_apart * e->scale;
-  return exits_of(*e, search_inwards(*e, rho, spheres, spheres), Leaving::across_the_sphere,
-                  near_enough);
+  constexpr int spheres = 3;
+  Exits exits = exits_of(*e, search_inwards(*e, 4 * told_apart, spheres, spheres),
+                         Leaving::across_the_sphere, near_enough);
+  for (const Matrix& Q : e->quadratic)
+    if (Q.topLeftCorner(2, 2).norm() > negligible_share * Q.norm()) exits.of_quadratic = true;
+  return exits;
 }
 
 int corank_of(const Walker& walker, const CurvePoint& at, double share) {

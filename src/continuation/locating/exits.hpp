@@ -24,6 +24,8 @@ struct Exits {
   std::vector<Exit> exits{};
   bool complete = true;  ///< false: some may be missing or wrong; `why` says what went wrong
   std::string why{};
+  bool of_quadratic =
+      false;  ///< close modes: their branches are told from each other by quadratic terms
 };
 
 /// Is this point of a branch near enough to the singular point, of whose branch it has the limit
@@ -52,8 +54,9 @@ using NearEnough = std::function<bool(const CurvePoint& start, const Direction& 
 Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
                const NearEnough& near_enough = {});
 
-/// All branches that leave a simple branch point beside which another mode vanishes: those that cross the sphere within
-/// which special points need not be told apart, by the reduced equations of both modes.
+/// All branches that leave a simple branch point beside which one other mode vanishes: those that cross the sphere of
+/// the radius `told_apart` around it, by the reduced equations of both modes, as they do two and four times as far out.
+/// Not complete where a third mode vanishes, or nearly, so near.
 Exits exits_of_close_modes(const Walker& walker, const CurvePoint& at,
                            const NearEnough& near_enough = {});
 
