@@ -60,6 +60,34 @@ TEST(EventsInOneStep, HaveTheCountsBesideThemWhateverTheSteps) {
         << trace;
 }
 
+/// A point between four springs, pulled along their axis against a fifth one: both sideways motions lose their
+/// stiffness at once where the transverse stiffness, of closed form, is zero.
+TEST(EventsInOneStep, OfADoubleModeAreFoundInTheStepThatTheRangeCuts) {
+  std::string text = "[[body]]\nname = \"tip\"\ntask_space = \"xyz\"\npose = [0, 0, 1]\n";
+  for (const char* at : {"[1, 0, 0]", "[0, 1, 0]", "[-1, 0, 0]", "[0, -1, 0]"})
+    text += std::string{"[[spring]]\nname = \"s"} + std::to_string(text.size()) +
+            "\"\nfrom_at = " + at + "\nto = \"tip\"\nstiffness = 1\nfree = 1\n";
+  text +=
+      "[[spring]]\nname = \"c\"\nfrom_at = [0, 0, 2]\nto = \"tip\"\nstiffness = 1\nfree = 0.5\n"
+      "[[study]]\nname = \"s\"\ncontrol = \"pose\"\ndirection = [0, 0, 1]\nstart = { solve = "
+      "\"wrench\" }\nuntil = { deflection = [0, ";
+  // Four springs of length l, of which two share a sideways motion: 4 (1 - 1/l) + 2/l^3; the fifth: 1 - 0.5/(2 - z).
+  const auto transverse = [](double z) {
+    const double l = std::hypot(1, z);
+    return 4 * (1 - 1 / l) + 2 / (l * l * l) + 1 - 0.5 / (2 - z);
+  };
+  for (const double end : {0.851, 0.86, 0.87, 0.89, 1.2}) {
+    const analysis::StudyResult result = run(text + number(end) + "] }\n").of("s");
+    int changes = 0;
+    for (const auto& event : result.branches.at(0).events) {
+      if (event.kind != EventKind::stability_change) continue;
+      ++changes;
+      EXPECT_NEAR(transverse(value(result, event.row, "tip.z")), 0, 1e-8) << end;
+    }
+    EXPECT_EQ(changes, 1) << end;
+  }
+}
+
 /// Two bars of length l0 on feet 2 apart, pressed down at the apex. The load turns where l^3 = l0, and the apex sways
 /// from where l^3 - l0 l^2 + l0 = 0: at the same place where l0^2 = 8.
 std::string truss(double l0, const std::string& step) {
