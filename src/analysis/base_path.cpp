@@ -13,6 +13,7 @@
 #include "settle_units.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "stability_changes.hpp"
 #include "start_hits.hpp"
 #include "switching_starts.hpp"
 #include "within_limits.hpp"
@@ -222,6 +223,8 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   if (path.lambda_unit > 1) return path;
   forward = with_hits_merged(std::move(forward), evaluator);
   backward = with_hits_merged(std::move(backward), evaluator);
+  if (study.critical.stability == StabilityOf::dead_load)
+    add_stability_changes(with, forward, backward);
   const auto forward_end = end_at_zero_length(problem, forward);
   const auto backward_end = end_at_zero_length(problem, backward);
   BranchSource source{.backward = backward, .forward = forward};

@@ -174,7 +174,8 @@ class Writer {
                                  : Stop{"the start, which several curves leave", true};
     }
     end_at_zero_lengths(t_, source);
-    add_stability_changes(t_, source);
+    add_stability_changes({t_.problem, t_.study, t_.evaluator, t_.quantities}, source.forward,
+                          source.backward);
     add_between(t_, source);
     const bool has_start = origin < 0 && (junction >= 0 || traced(group[0]).start == 0);
     const CurvePoint first = source.forward.points.front();

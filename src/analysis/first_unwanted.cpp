@@ -43,9 +43,12 @@ bool is_unwanted(const Member& member, const CriticalPointSettings& settings, co
     case EventKind::unresolved:
       return !only_turns || turns_back(member, path, point, "lambda") ||
              (dead && turns_back(member, path, point, "force"));
+    case EventKind::stability_change:
     case EventKind::switching: {
+      const bool of_dead_load = point.kind == EventKind::stability_change;
       const QuantityDefinition* index = member.quantity(dead ? "index_force" : "index");
-      if (only_turns || index == nullptr || point.row + 1 >= path.branch.samples.size())
+      if (only_turns || (of_dead_load && !dead) || index == nullptr ||
+          point.row + 1 >= path.branch.samples.size())
         return false;
       const auto column = static_cast<std::size_t>(index - member.quantities().data());
       return path.branch.samples[point.row + 1].values[column] > 0;

@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "branch_rows.hpp"
+#include "grow_diagram.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/rounding.hpp"
 
@@ -26,10 +28,8 @@ constexpr double one_way = 0.7;
 
 class Watcher {
  public:
-  explicit Watcher(const Tracing& tracing)
-      : t_{tracing},
-        weights_{tracing.problem.metric()},
-        options_{options_of(tracing.study.trace).newton} {
+  explicit Watcher(const Following& with)
+      : t_{with}, weights_{with.problem.metric()}, options_{options_of(with.study.trace).newton} {
     for (const QuantityDefinition& q : t_.quantities)
       if (q.kind == QuantityDefinition::Kind::index_force) force_ = &q;
   }
@@ -228,7 +228,7 @@ class Watcher {
     curve.hits.push_back(std::move(hit));
   }
 
-  const Tracing& t_;
+  const Following& t_;
   Vector weights_;
   continuation::NewtonOptions options_;
   const QuantityDefinition* force_ = nullptr;
@@ -236,12 +236,12 @@ class Watcher {
 
 }  // namespace
 
-void add_stability_changes(const Tracing& tracing, BranchSource& source) {
-  const ControlMode control = tracing.study.control;
+void add_stability_changes(const Following& with, Curve& forward, Curve& backward) {
+  const ControlMode control = with.study.control;
   const bool holds = control == ControlMode::pose || control == ControlMode::mixed;
-  if (!tracing.problem.symmetric()) return;
-  Watcher watcher(tracing);
-  for (Curve* curve : {&source.forward, &source.backward}) {
+  if (!with.problem.symmetric()) return;
+  Watcher watcher(with);
+  for (Curve* curve : {&forward, &backward}) {
     if (holds) watcher.watch(*curve);
     watcher.part_hits(*curve);
   }

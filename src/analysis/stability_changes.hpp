@@ -2,8 +2,7 @@
 // study holds the body. Private to analysis.
 #pragma once
 
-#include "branch_rows.hpp"
-#include "grow_diagram.hpp"
+#include "within_limits.hpp"
 
 namespace springfold::analysis {
 
@@ -12,6 +11,7 @@ namespace springfold::analysis {
 /// becomes an event of its own, located by bisection with corrected points, unless a special point already stands
 /// there. Changes that cancel within one step are not seen. Under every control special points that share a step get a
 /// point between them, which the counts beside them are told from.
-void add_stability_changes(const Tracing& tracing, BranchSource& source);
+void add_stability_changes(const Following& with, continuation::Curve& forward,
+                           continuation::Curve& backward);
 
 }  // namespace springfold::analysis

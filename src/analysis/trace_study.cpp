@@ -65,7 +65,7 @@ Branch trace_both_ways(const Tracing& t, const CurvePoint& start, continuation::
   source.backward_stop = stop_of(source.backward);
   source.at_start = hits_at_start(with, source);
   end_at_zero_lengths(t, source);
-  add_stability_changes(t, source);
+  add_stability_changes(with, source.forward, source.backward);
   add_between(t, source);
   const CurvePoint first = source.forward.points.front();
   std::vector<BranchRows> rows{

@@ -96,6 +96,28 @@ threshold = { of = "loss_of_stability", parameter = "psi", range = [-0.3, 2.2], 
   EXPECT_TRUE(complete(result));
 }
 
+TEST(OffThePath, LossesUnderDeadLoadThatNoCurveFollowsAreSaid) {
+  // Four springs hold a driven point sideways: it would leave its axis under dead load, though the force never turns.
+  std::string text =
+      "[parameters]\nk = 1\n[[body]]\nname = \"tip\"\ntask_space = \"xyz\"\npose = [0, 0, 1]\n";
+  for (const char* at : {"[1, 0, 0]", "[0, 1, 0]", "[-1, 0, 0]", "[0, -1, 0]"})
+    text += std::string{"[[spring]]\nname = \"s"} + std::to_string(text.size()) +
+            "\"\nfrom_at = " + at + "\nto = \"tip\"\nstiffness = 1\nfree = 1\n";
+  const auto result =
+      run(text +
+          "[[spring]]\nname = \"c\"\nfrom_at = [0, 0, 2]\nto = \"tip\"\nstiffness = \"k\"\nfree = "
+          "0.5\n[[study]]\nname = \"s\"\nkind = \"threshold\"\ncontrol = \"pose\"\ndirection = [0, "
+          "0, "
+          "1]\nstart = { solve = \"wrench\" }\nuntil = { deflection = [0, 0.9] }\nthreshold = { of "
+          "= "
+          "\"loss_of_stability\", parameter = \"k\", range = [0.95, 3], index = \"dead_load\" }\n")
+          .of("s");
+  ASSERT_TRUE(result.threshold);
+  EXPECT_FALSE(result.threshold->found);
+  ASSERT_FALSE(result.doubts.empty());
+  EXPECT_THAT(result.doubts.front(), HasSubstr("SC1"));
+}
+
 TEST(OffThePath, FirstCriticalLoadsAreKnownOnBothSidesOfAKinkOfTheCase) {
   // A guided truss over a post that is stiffer beyond the length b. Where its free length f passes b the law itself has
   // a kink in f: below the force is k1 (u - f), above k2 (b - f) + k1 (u - b).
