@@ -201,7 +201,8 @@ double place_rounding(const Embedded& problem, const Hit& hit, const Curve& curv
   for (const CurvePoint* p : {&*after, &*(after - 1)}) {
     const auto [eigenvalue, error] = least_eigenvalue(problem, *p);
     const double way = (problem.base_point(p->x) - problem.base_point(hit.point.x)).norm();
-    worst = std::max(worst, eigenvalue > 0 ? error / eigenvalue * way : 1);
+    const double share = eigenvalue > 0 ? error / eigenvalue : 1;
+    worst = std::max(worst, hit.kind == HitKind::touch ? std::sqrt(share) * way : share * way);
   }
   return worst;
 }

@@ -44,8 +44,9 @@ constexpr double may_be_cluster = 1e-4;
 void check_points(const Embedded& problem, const Draw& draw, const continuation::Curve& curve,
                   Verdict& verdict);
 
-/// How far rounding of dF/dq moves the place where its eigenvalue is zero: the slope of the
-/// eigenvalue along the curve is taken from the stored points around it, and measured in z.
+/// How far rounding of dF/dq moves the place where its eigenvalue is zero, measured in z: the eigenvalue is taken as
+/// linear between the place and the stored points around it, at a touch as quadratic. An error e of dF/dq moves a
+/// double zero by the square root of e.
 double place_rounding(const Embedded& problem, const continuation::Hit& hit,
                       const continuation::Curve& curve);
 

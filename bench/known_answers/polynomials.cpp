@@ -115,7 +115,7 @@ Draw pitchfork(Random& random) {
     F_l = -x;
   });
   draw.size = 2;
-  limit_lambda(draw, l0 - 1, l0 + 1);
+  limit_lambda(draw, l0 - 1, l0 + 1.1);  // the detached branch starts at up to l0 + 1.01
   draw.parameter = [](const Vector& z, double) { return z[0]; };
   const auto curve = [=](double x) { return l0 + x * x + (eta == 0 ? 0 : eta / x); };
   // The main branch has x of the sign of -eta, the detached one that of eta.

@@ -20,6 +20,7 @@ struct Ray {
   /// Where the next switching surface lies just beside such a point: a point farther out, on the smooth continuation of
   /// the piece, from which the curve in front of the surface is told. trace() then begins at the point itself.
   std::optional<CurvePoint> beyond{};
+  double accuracy = 0;  ///< of the tangent: it may be off by this, in the metric
 };
 
 struct Rays {

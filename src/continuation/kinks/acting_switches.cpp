@@ -37,15 +37,18 @@ bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const Curve
 
 }  // namespace
 
-std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
+std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const KinkSearch& kink,
                              const std::vector<Index>& left) {
-  std::vector<Index> active = active_switches(walker, kink.x, kink.lambda);
+  std::vector<Index> active = active_switches(walker, kink.point.x, kink.point.lambda);
+  if (!contains(active, kink.met))
+    active.insert(std::ranges::lower_bound(active, kink.met), kink.met);
   Workspace::Switches before, here;
   if (active.size() < 2 || !read_switches(walker, from, before) ||
-      !read_switches(walker, kink, here))
+      !read_switches(walker, kink.point, here))
     return active;
   std::erase_if(active, [&](Index j) {
-    return is_zero_elsewhere(walker, from, kink, before, here, j, contains(left, j));
+    return j != kink.met &&
+           is_zero_elsewhere(walker, from, kink.point, before, here, j, contains(left, j));
   });
   return active;
 }

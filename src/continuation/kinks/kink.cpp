@@ -81,7 +81,8 @@ bool is_known(const Walker& walker, const Piece& preferred, const Piece& piece, 
     std::vector<Index> either = ray.resting;
     either.insert(either.end(), resting.begin(), resting.end());
     if (!differ_only(ray.piece, piece, either) ||
-        !(length_of(walker, difference(ray.tangent, way.tangent)) <= 10 * way.accuracy))
+        !(length_of(walker, difference(ray.tangent, way.tangent)) <=
+          10 * std::max(way.accuracy, ray.accuracy)))
       continue;
     const auto as_preferred = [&](Index j) {
       return piece[static_cast<std::size_t>(j)] == preferred[static_cast<std::size_t>(j)];
@@ -147,7 +148,8 @@ void judge(const Walker& walker, const CurvePoint& at, const PieceWay& way,
     }
   }
   if (!resting.empty() && is_known(walker, preferred, at.piece, way, grazed, resting, rays)) return;
-  rays.rays.push_back({at.piece, way.tangent, std::move(resting), way.start, way.beyond});
+  rays.rays.push_back(
+      {at.piece, way.tangent, std::move(resting), way.start, way.beyond, way.accuracy});
 }
 
 Piece piece_of(Piece piece, const std::vector<Index>& active, unsigned pattern) {

@@ -65,7 +65,8 @@ struct KinkSearch {
   Status status = Status::none;
   CurvePoint point{};
   double before = 0, after = 0;  ///< step lengths that bracket it
-  std::vector<Index> active{};   ///< switches that are zero there
+  Index met = -1;                ///< the switch whose zero `point` is
+  std::vector<Index> active{};   ///< switches that are zero there, this one among them
   bool singular = false;         ///< it is a branch point of the piece on which the curve arrives
   Index suspect = -1;            ///< the switch that asks for a shorter step
   std::vector<Index> touched{};  ///< switches that touch zero on this step without crossing it
@@ -80,9 +81,9 @@ struct KinkSearch {
 KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                       const std::vector<Index>& left);
 
-/// Switches that are zero at the kink, and not just near to zero there.
+/// Switches that are zero at the kink, and not just near to zero there; the one that is met acts in any case.
 /// @param left  those that the step leaves where it begins
-std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
+std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const KinkSearch& kink,
                              const std::vector<Index>& left);
 
 /// Of several switches that act, those whose surfaces the curve surely meets behind the first one are left to the next

@@ -242,7 +242,9 @@ void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSe
   if (!place) return;
   Vector g;
   if (!walker.problem.switches(place->x, place->lambda, g)) return;
-  for (const Index j : active_switches(walker, point.x, point.lambda))
+  std::vector<Index> met = active_switches(walker, point.x, point.lambda);
+  met.push_back(kink.met);
+  for (const Index j : met)
     if (std::abs(g[j]) > walker.options.simultaneous) return;
   if (!(length_of(walker, difference(*place, point)) <= told_apart)) return;
   point.x = place->x;
@@ -312,13 +314,14 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
         (result.status == KinkSearch::Status::found && crossing.located->point.s >= result.point.s))
       continue;
     result.status = KinkSearch::Status::found;
+    result.met = j;
     result.point = std::move(crossing.located->point);
     result.before = crossing.located->before;
     result.after = crossing.located->after;
   }
   if (result.status != KinkSearch::Status::found) return result;
   settle_on_branch_point(walker, from, result);
-  result.active = acting_at(walker, from, result.point, left);
+  result.active = acting_at(walker, from, result, left);
   part_surfaces(walker, from, left, result);
   settle_on_surface(walker, from, result);
   return result;

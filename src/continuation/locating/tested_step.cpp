@@ -173,8 +173,14 @@ std::vector<Candidate> branch_points_at(const TestedStep& arc, const std::vector
   const auto add = [&](const Singularity& place, Index m, bool touches) {
     Singularity alone = place;
     alone.free = free;
-    if (auto candidate = candidate_at(arc, alone, zeros, m, touches))
+    auto candidate = candidate_at(arc, alone, zeros, m, touches);
+    if (!candidate) return false;
+    // Interpolated places may be two in their rounding, and the exact one is one.
+    if (std::ranges::none_of(result, [&](const Candidate& other) {
+          return std::abs(other.at - candidate->at) <= promised_place;
+        }))
       result.push_back(std::move(*candidate));
+    return true;
   };
   const bool is_simple = zeros.size() == 1 && crossings == 1 && most > 1 &&
                          is_simple_zero(arc, zeros.front().at, most, free);
@@ -182,10 +188,11 @@ std::vector<Candidate> branch_points_at(const TestedStep& arc, const std::vector
   if (!apart.found.empty()) return apart.found;
   for (Index m = is_simple ? 1 : most; m > 1; --m) {
     const auto places = multiple_zeros(arc, middle, free, m);
-    for (const Singularity& place : places) add(place, m, false);
+    bool all_settle = true;
+    for (const Singularity& place : places) all_settle = add(place, m, false) && all_settle;
     // Some of the eigenvalues may only touch zero: the determinant knows.
-    if (places.size() == 1 && result.size() == 1) result.front().odd = crossings % 2 == 1;
-    if (!places.empty()) return result.size() == places.size() ? result : std::vector<Candidate>{};
+    if (result.size() == 1) result.front().odd = crossings % 2 == 1;
+    if (!places.empty()) return all_settle ? result : std::vector<Candidate>{};
     // The entries are too small against their rounding; the place itself may be well-conditioned.
     if (crossings == 1 && zeros.size() == 1 && m == 2 &&
         vanishing_modes(arc, most, zeros.front()) < 2)
