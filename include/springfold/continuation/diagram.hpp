@@ -38,6 +38,7 @@ struct Way {
   /// Farther out than the first switching surface, on the smooth continuation of the piece, where that surface lies
   /// just beside the point.
   std::optional<CurvePoint> beyond{};
+  double accuracy = 0;  ///< of the tangent at the point: it may be off by this, in the metric
 };
 
 /// A point at which branches meet, with all its ways.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "continuation/branches/junction_ways.hpp"
 #include "continuation/branches/known_junctions.hpp"
 #include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
@@ -26,12 +27,9 @@ std::vector<Way> ways_of(const Walker& walker, const Junction& junction, const E
   std::vector<Way> ways = junction.ways;
   std::vector<bool> is_found(ways.size(), false);
   for (const Exit& exit : exits.exits) {
-    CurvePoint point = junction.point;
-    point.tangent = exit.tangent;
-    point.negative.reset();
-    const int same = way_along(walker, junction, exit.tangent, point.piece);
+    const int same = way_along(walker, junction, exit.tangent, junction.point.piece);
     if (same < 0) {
-      ways.push_back({.point = point, .start = exit.start, .beyond = exit.beyond});
+      ways.push_back(way_of(junction.point, exit));
       continue;
     }
     const auto number = static_cast<std::size_t>(same);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
-#include "continuation/locating/exits.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 #include "continuation/points/normalised.hpp"
@@ -74,7 +74,8 @@ void add_rays(const Walker& walker, const Hit& hit, const std::vector<Index>& ac
   for (const Ray& ray : rays.rays) {
     if (leaves_beside(walker, hit, ray)) continue;
     const CurvePoint leaving = point_on_ray(walker, point, ray);
-    junction.ways.push_back({leaving, start_on(walker, leaving, ray, surfaces), -1, ray.beyond});
+    junction.ways.push_back(
+        {leaving, start_on(walker, leaving, ray, surfaces), -1, ray.beyond, ray.accuracy});
   }
 }
 
@@ -98,15 +99,20 @@ void add_exits(const Walker& walker, const DiagramOptions& options, const Hit& h
   const Exits exits = exits_at(walker, hit.point, corank, near_enough);
   junction.complete = exits.complete;
   junction.why = exits.why;
-  for (const Exit& exit : exits.exits) {
-    CurvePoint point = hit.point;
-    point.tangent = exit.tangent;
-    point.negative.reset();
-    junction.ways.push_back({.point = point, .start = exit.start, .beyond = exit.beyond});
-  }
+  for (const Exit& exit : exits.exits) junction.ways.push_back(way_of(hit.point, exit));
 }
 
 }  // namespace
+
+Way way_of(const CurvePoint& at, const Exit& exit) {
+  CurvePoint point = at;
+  point.tangent = exit.tangent;
+  point.negative.reset();
+  return {.point = std::move(point),
+          .start = exit.start,
+          .beyond = exit.beyond,
+          .accuracy = exit.accuracy};
+}
 
 bool is_junction(const Hit& hit) {
   return hit.kind == HitKind::branch_point || hit.kind == HitKind::touch ||

@@ -10,8 +10,10 @@
 #include "continuation/kinks/beside.hpp"
 #include "continuation/kinks/kink.hpp"
 #include "continuation/kinks/kink_passage.hpp"
+#include "continuation/locating/reduced_equation.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/normalised.hpp"
+#include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::continuation {
@@ -69,21 +71,30 @@ std::optional<double> passage(const Walker& walker, const CurvePoint& junction, 
 }
 
 /// Surfaces on which the junction lies, and to which the way is tangential there: what the switches are at its start is
-/// not what their rates make of the way to it. On which side it lies was seen when it was found.
+/// not what their rates make of the way to it, or these are none to the accuracy of the tangent, and the switch grows
+/// with more than the distance. On which side it lies was seen when it was found.
 std::vector<Index> tangential_surfaces(const Walker& walker, const CurvePoint& junction,
                                        const Way& way, double gap) {
   std::vector<Index> list = active_switches(walker, junction.x, junction.lambda);
-  Matrix dg_dx;
-  Vector dg_dlambda, g;
-  if (list.empty() ||
-      !walker.problem.switch_gradients(junction.x, junction.lambda, dg_dx, dg_dlambda) ||
-      !walker.problem.switches(way.start.x, way.start.lambda, g))
+  constexpr double more_than_linear = 1.5;
+  Workspace::Switches at_junction, at_start;
+  if (list.empty() || !read_switches(walker, junction, at_junction) ||
+      !read_switches(walker, way.start, at_start))
     return {};
+  const Vector root = metric_roots(walker.weights);
   std::erase_if(list, [&](Index j) {
-    if (std::abs(g[j]) <= walker.options.simultaneous)
+    const double g = at_start.g[j], moves = sure_rate(walker, at_start, j, way.start);
+    if (std::abs(g) <= walker.options.simultaneous && moves == 0)
       return true;  // it rests: both sides are looked at
-    const double rate = switch_rate(dg_dx, dg_dlambda, j, way.point.tangent);
-    return std::abs(rate) * gap > small_share * std::abs(g[j]);
+    const double leaves =
+        std::abs(switch_rate(at_junction.dg_dx, at_junction.dg_dlambda, j, way.point.tangent));
+    Vector gradient(root.size());
+    gradient << at_junction.dg_dx.row(j).transpose(), at_junction.dg_dlambda[j];
+    const double unknown = between_samples * way.accuracy * gradient.cwiseQuotient(root).norm();
+    const bool grows = moves * gap / g > more_than_linear;
+    const bool is_tangential =
+        leaves * gap <= small_share * std::abs(g) || (leaves <= unknown && grows);
+    return !is_tangential;
   });
   return list;
 }

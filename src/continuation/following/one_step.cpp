@@ -44,7 +44,7 @@ bool leads_on(const Walker& walker, const ArcModel& behind, const CurvePoint& be
   if (off <= one_place * (1 + to.x.norm()) || off <= 0.5 * distance_of(walker, behind, here, to))
     return true;
   // In a cluster, where rounding moves points by more than one place is wide, nothing is told apart anyway.
-  return std::ranges::any_of(std::array{&middle, &to}, [&](const CurvePoint* p) {
+  return std::ranges::any_of(std::array{&here, &middle, &to}, [&](const CurvePoint* p) {
     const auto other = separation_at(TestedStep(walker, *p, to.s - here.s), *p);
     return other && other->blur > one_place && off <= between_samples * other->blur;
   });
