@@ -1,15 +1,58 @@
 #include "cut_curve.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 
 namespace springfold::analysis {
 
 using continuation::CriticalHit;
 using continuation::CriticalPoint;
+using continuation::CriticalStart;
 
-std::optional<CriticalPoint> point_of_curve(const CaseCurves& curves,
-                                            const continuation::CriticalStart& of,
+namespace {
+
+/// Between two points of a critical curve the curve is smooth by its length, also where lambda runs like a root of the
+/// parameter: the cubics by their values and slopes; chords where a slope is not known.
+class BetweenPoints {
+ public:
+  BetweenPoints(const CriticalPoint& a, const CriticalPoint& b)
+      : a_{a}, b_{b}, bends_{a.dx.size() == a.x.size() && b.dx.size() == b.x.size()} {}
+
+  /// The part of the way at which the parameter has this value, on the chord where the cubic has none.
+  double part_at(double mu) const {
+    if (a_.mu == b_.mu) return 0;
+    const auto off = [&](double t) { return value(t, a_.mu, a_.dmu, b_.mu, b_.dmu) - mu; };
+    if (!bends_ || off(0) * off(1) > 0) return (mu - a_.mu) / (b_.mu - a_.mu);
+    std::uintmax_t most = 60;
+    const auto [low, high] = boost::math::tools::toms748_solve(
+        off, 0.0, 1.0, boost::math::tools::eps_tolerance<double>(), most);
+    return 0.5 * (low + high);
+  }
+
+  CriticalStart start_at(double t, const CriticalStart& of) const {
+    CriticalStart start = of;
+    start.x = value(t, a_.x, a_.dx, b_.x, b_.dx);
+    start.lambda = value(t, a_.lambda, a_.dlambda, b_.lambda, b_.dlambda);
+    return start;
+  }
+
+ private:
+  template <class Value>
+  Value value(double t, const Value& a, const Value& da, const Value& b, const Value& db) const {
+    const double u = 1 - t, h = b_.s - a_.s;
+    if (!bends_) return u * a + t * b;
+    return u * u * ((1 + 2 * t) * a + t * h * da) + t * t * ((1 + 2 * u) * b - u * h * db);
+  }
+
+  const CriticalPoint &a_, &b_;
+  bool bends_;
+};
+
+}  // namespace
+
+std::optional<CriticalPoint> point_of_curve(const CaseCurves& curves, const CriticalStart& of,
                                             const continuation::CriticalCurve& curve, double mu,
                                             double room) {
   std::vector<CriticalPoint> points = curve.points;
@@ -20,10 +63,9 @@ std::optional<CriticalPoint> point_of_curve(const CaseCurves& curves,
     const CriticalPoint &a = points[i], &b = points[i + 1];
     const bool behind_all = i + 2 == points.size() && std::abs(b.mu - mu) <= room;
     if ((a.mu - mu) * (b.mu - mu) > 0 && !behind_all) continue;
-    const double part = b.mu == a.mu ? 0 : (mu - a.mu) / (b.mu - a.mu);
-    continuation::CriticalStart start = of;
-    start.x = a.x + part * (b.x - a.x);
-    start.lambda = a.lambda + part * (b.lambda - a.lambda);
+    const BetweenPoints between(a, b);
+    const double part = between.part_at(mu);
+    CriticalStart start = between.start_at(part, of);
     start.mu = mu;
     auto found = polish_critical(curves.family(), start);
     if (found) found->s = a.s + part * (b.s - a.s);

@@ -2,6 +2,7 @@
 // order.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -106,6 +107,31 @@ TEST(RingsAtRest, BetweenTwoCablesTheMastLeansAcrossThemFirst) {
       EXPECT_EQ(off.size(), 2u);
       for (const double angle : off) EXPECT_NEAR(angle, 0, 0.1);
     }
+  }
+}
+
+/// The joint is as stiff in all directions, and its mast leans along the axes and diagonals of the joint: to those of
+/// them on which the cable is slack. Across the cable, which bears it to third order only, it leans to one side.
+TEST(RingsAtRest, BesideOneCableOfAJointAsStiffInAllDirectionsEveryWayIsThereOnce) {
+  struct Leans {
+    double first = 0;
+    std::vector<double> angles{};
+  };
+  constexpr double pi = std::numbers::pi;
+  const Leans cases[] = {{0.0, {-pi / 2, -pi / 4, 0, pi / 4, pi / 2}},
+                         {0.3, {0.3 - pi / 2, -pi / 4, 0, pi / 4, pi / 2}}};
+  for (const auto& [first, angles] : cases) {
+    SCOPED_TRACE(first);
+    const StudyResult result = run(ring({1, first})).of("press");
+    EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+    const auto loads = lambdas(result, EventKind::branching_kink);
+    ASSERT_EQ(loads.size(), 2u);
+    EXPECT_NEAR(loads[0], foot_spring, 1e-10);
+    EXPECT_NEAR(loads[1], foot_spring + 0.5, 1e-10);
+    auto leans = off_directions(result, "KB1", 0, 2 * pi);
+    std::sort(leans.begin(), leans.end());
+    ASSERT_EQ(leans.size(), angles.size());
+    for (std::size_t i = 0; i < angles.size(); ++i) EXPECT_NEAR(leans[i], angles[i], 0.1);
   }
 }
 
