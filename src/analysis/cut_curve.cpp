@@ -17,8 +17,8 @@ namespace {
 /// parameter: the cubics by their values and slopes; chords where a slope is not known.
 class BetweenPoints {
  public:
-  BetweenPoints(const CriticalPoint& a, const CriticalPoint& b)
-      : a_{a}, b_{b}, bends_{a.dx.size() == a.x.size() && b.dx.size() == b.x.size()} {}
+  BetweenPoints(const CriticalPoint& a, const CriticalPoint& b, bool bends)
+      : a_{a}, b_{b}, bends_{bends && a.dx.size() == a.x.size() && b.dx.size() == b.x.size()} {}
 
   /// The part of the way at which the parameter has this value, on the chord where the cubic has none.
   double part_at(double mu) const {
@@ -63,12 +63,18 @@ std::optional<CriticalPoint> point_of_curve(const CaseCurves& curves, const Crit
     const CriticalPoint &a = points[i], &b = points[i + 1];
     const bool behind_all = i + 2 == points.size() && std::abs(b.mu - mu) <= room;
     if ((a.mu - mu) * (b.mu - mu) > 0 && !behind_all) continue;
-    const BetweenPoints between(a, b);
-    const double part = between.part_at(mu);
-    CriticalStart start = between.start_at(part, of);
-    start.mu = mu;
-    auto found = polish_critical(curves.family(), start);
-    if (found) found->s = a.s + part * (b.s - a.s);
+    std::optional<CriticalPoint> found;
+    // Where the parameter stands still at the very place, as at that of a symmetric structure, the chord may meet it.
+    for (const bool bends : {true, false}) {
+      const BetweenPoints between(a, b, bends);
+      const double part = between.part_at(mu);
+      CriticalStart start = between.start_at(part, of);
+      start.mu = mu;
+      found = polish_critical(curves.family(), start);
+      if (!found) continue;
+      found->s = a.s + part * (b.s - a.s);
+      break;
+    }
     return found;
   }
   return std::nullopt;

@@ -22,7 +22,7 @@ bool ends(const continuation::Curve& curve) { return curve.stop != StopReason::e
 /// matter of jumps and of handing over.
 bool ends_at_a_kink(const continuation::Curve& curve) {
   return was_ended(curve) || curve.stop == StopReason::several_ways ||
-         curve.stop == StopReason::no_way_out;
+         curve.stop == StopReason::no_way_out || curve.stop == StopReason::turns_upon_itself;
 }
 
 }  // namespace

@@ -73,6 +73,7 @@ enum class StopReason {
   observer,        ///< the caller asked to stop
   unbounded,       ///< as `observer`, where the caller saw lambda grow without bound
   pole,  ///< as `observer`, where the caller saw unknowns go to infinity: nothing lies ahead
+  turns_upon_itself,  ///< at a kink, where a switch rests along the curve: it leads back, nothing lies ahead
 };
 
 std::string_view to_string(StopReason reason);

@@ -158,7 +158,7 @@ void Tracer::note_early_end() {
   const Curve& curve = diagram_.branches[static_cast<std::size_t>(current_)].curve;
   const bool at_junction = !curve.hits.empty() && curve.hits.back().junction >= 0;
   constexpr std::array as_asked{StopReason::event, StopReason::closed, StopReason::joined,
-                                StopReason::observer};
+                                StopReason::observer, StopReason::turns_upon_itself};
   if (std::ranges::find(as_asked, curve.stop) != as_asked.end() ||
       (curve.stop == StopReason::several_ways && (at_junction || !options_.through_kinks)))
     return;

@@ -6,10 +6,13 @@
 
 #include "continuation/kinks/beside.hpp"
 #include "continuation/kinks/kink.hpp"
+#include "continuation/locating/bordered_test.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
 #include "springfold/continuation/numerics.hpp"
+#include "springfold/core/decompositions.hpp"
 #include "springfold/core/equilibration.hpp"
+#include "springfold/core/extended_matrix.hpp"
 
 namespace springfold::continuation {
 namespace {
@@ -121,9 +124,35 @@ std::optional<bool> turns_by_counts(const Walker& walker, const KinkSearch& kink
   return std::abs(*after.negative - *before.negative) % 2 == 1;
 }
 
+/// Sign of the determinant of E, as in fits(), for the curve of a piece at its point; 0 where that is singular.
+int sense_of_piece(const Walker& walker, const CurvePoint& p) {
+  Linearisation at;
+  if (!linearise_densely(walker.problem, p.x, p.lambda, p.piece, at)) return 0;
+  const ExtendedMatrix E = extended_matrix(at, walker.weights, p.tangent);
+  if (is_singular(E, located_rank)) return 0;
+  return Lu(E.dense).sign();
+}
+
+/// Along a curve on which a switch rests run those of the two pieces beside it. Where they pass in opposite senses they
+/// are the two halves of one curve: displaced by next to nothing it comes along one of them and goes back along the
+/// other, or along each of them and on, once for each. So there are two ways on, or none.
+bool may_turn_upon_itself(const Walker& walker, const CurvePoint& arrived,
+                          const std::vector<Index>& resting) {
+  if (resting.size() != 1 || walker.problem.structured()) return false;
+  CurvePoint other = arrived;
+  auto& side = other.piece[static_cast<std::size_t>(resting.front())];
+  side = side > 0 ? -1 : 1;
+  return sense_of_piece(walker, arrived) * sense_of_piece(walker, other) < 0;
+}
+
 /// Why the trace ends at this kink, if it does; labels the hit.
-std::optional<StopReason> dead_end(const KinkSearch& kink, const Rays& rays, Hit& hit) {
-  if (hit.leaving.empty() && kink.active.size() <= most_active) return StopReason::no_way_out;
+/// @param resting  switches that rest along the curve that arrives
+std::optional<StopReason> dead_end(const Walker& walker, const KinkSearch& kink,
+                                   const std::vector<Index>& resting, const Rays& rays, Hit& hit) {
+  if (hit.leaving.empty() && kink.active.size() <= most_active)
+    return rays.complete && may_turn_upon_itself(walker, hit.point, resting)
+               ? StopReason::turns_upon_itself
+               : StopReason::no_way_out;
   if (!rays.complete) {
     hit.kind = HitKind::unresolved;
     hit.name = "unresolved kink: " + hit.name + ": " + rays.why;
@@ -132,6 +161,16 @@ std::optional<StopReason> dead_end(const KinkSearch& kink, const Rays& rays, Hit
   if (hit.leaving.size() == 1) return std::nullopt;
   hit.kind = HitKind::branching_kink;
   return StopReason::several_ways;
+}
+
+std::string why_it_ends(StopReason reason, const Rays& rays, const Hit& hit) {
+  if (reason == StopReason::turns_upon_itself)
+    return "at " + hit.name + "; what rests along it allows two ways on or none, and here none";
+  if (reason == StopReason::no_way_out)
+    return "no way out at " + hit.name + (rays.complete ? "" : ": " + rays.why);
+  return hit.kind == HitKind::unresolved
+             ? hit.name
+             : std::to_string(hit.leaving.size()) + " ways out at " + hit.name;
 }
 
 }  // namespace
@@ -160,20 +199,17 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
           .s_before = progress.here.s + kink.before,
           .s_after = progress.here.s + kink.after};
   const Rays rays = ways_out(walker, kink, hit.point);
-  hit.switches = crossed(kink, resting_switches(walker, progress.here, kink.point), rays.rays);
+  const std::vector<Index> resting = resting_switches(walker, progress.here, kink.point);
+  hit.switches = crossed(kink, resting, rays.rays);
   hit.name = names_of(walker.problem, hit.switches);
   const Beside before =
       arriving ? *arriving : beside(walker, hit.point, -1, hit.point.s - progress.here.s);
   if (before.moved) hit.point.negative = before.point.negative;
   if (before.sense == 0) hit.point.negative.reset();
   const std::vector<Beside> after = add_leaving(walker, rays.rays, kink.active.size() > 1, hit);
-  if (const auto reason = dead_end(kink, rays, hit)) {
+  if (const auto reason = dead_end(walker, kink, resting, rays, hit)) {
     curve.stop = *reason;
-    curve.stop_detail = *reason == StopReason::no_way_out ? "no way out at " + hit.name
-                        : hit.kind == HitKind::unresolved
-                            ? hit.name
-                            : std::to_string(hit.leaving.size()) + " ways out at " + hit.name;
-    if (*reason == StopReason::no_way_out && !rays.complete) curve.stop_detail += ": " + rays.why;
+    curve.stop_detail = why_it_ends(*reason, rays, hit);
     hit.stops = true;
     curve.hits.push_back(std::move(hit));
     return Outcome::stop;

@@ -32,6 +32,8 @@ std::string_view to_string(StopReason reason) {
       return "lambda grows without bound";
     case StopReason::pole:
       return "unknowns go to infinity";
+    case StopReason::turns_upon_itself:
+      return "the curve turns back upon itself";
   }
   return "unknown";
 }
