@@ -90,11 +90,13 @@ SpringEdges edges_at(const PathProblem& problem, const CurvePoint& point) {
   return spring_edges(problem.system(point.lambda), z, inputs);
 }
 
+/// The curve ends at one of its points, not at what it was to end at.
 void cut(Curve& curve, std::size_t points) {
   curve.points.resize(points);
   const double end = curve.points.back().s;
   std::erase_if(curve.hits, [end](const auto& hit) { return hit.point.s > end; });
   std::erase_if(curve.arcs, [end](const auto& arc) { return arc.s_end > end; });
+  curve.stop = continuation::StopReason::observer;
 }
 
 }  // namespace
@@ -140,10 +142,14 @@ std::optional<std::string> led_over_edge(const statics::System& system, const Sp
 
 std::optional<Stop> end_at_zero_length(const PathProblem& problem, Curve& curve) {
   if (curve.points.empty()) return std::nullopt;
-  SpringEdges before = edges_at(problem, curve.points.front());
-  for (std::size_t i = 1; i < curve.points.size() && !before.is_empty(); ++i) {
-    SpringEdges after = edges_at(problem, curve.points[i]);
-    if (auto reason = led_over_edge(problem.system(curve.points[i].lambda), before, after)) {
+  std::vector<const CurvePoint*> stations;
+  for (const CurvePoint& point : curve.points) stations.push_back(&point);
+  // Where the curve ends at an event that cuts its last step, no other point of it lies.
+  if (!curve.hits.empty() && curve.hits.back().stops) stations.push_back(&curve.hits.back().point);
+  SpringEdges before = edges_at(problem, *stations.front());
+  for (std::size_t i = 1; i < stations.size() && !before.is_empty(); ++i) {
+    SpringEdges after = edges_at(problem, *stations[i]);
+    if (auto reason = led_over_edge(problem.system(stations[i]->lambda), before, after)) {
       cut(curve, i);
       return Stop{std::move(*reason), false};
     }

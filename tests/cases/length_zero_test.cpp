@@ -1,0 +1,79 @@
+// A point that is led straight through the end of a spring: there the spring's force has no direction, and the path ends.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "case_runs.hpp"
+#include "cases/number_text.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::EventKind;
+using analysis::StudyResult;
+
+/// Feet of the springs beside the way and of the one on it, and what they are made of.
+constexpr struct {
+  double beside = 0.5, lower = 0.2, stiffness = 2;
+  double depth = 0.8, of_low = 1.5;
+} springs_led_to{};
+
+/// A point between two springs of free length on both sides, and one from straight below, led down.
+StudyResult led_down(double to, double step) {
+  const std::string free = number(std::hypot(springs_led_to.beside, springs_led_to.lower));
+  std::string text = "[[body]]\nname = \"tip\"\ntask_space = \"xy\"\npose = [0, 0]\n";
+  for (const double x : {springs_led_to.beside, -springs_led_to.beside})
+    text += "[[spring]]\nname = \"" + std::string{x > 0 ? "right" : "left"} + "\"\nfrom_at = [" +
+            number(x) + ", " + number(-springs_led_to.lower) +
+            "]\nto = \"tip\"\nstiffness = " + number(springs_led_to.stiffness) +
+            "\nfree = " + free + "\n";
+  text += "[[spring]]\nname = \"low\"\nfrom_at = [0, " + number(-springs_led_to.depth) +
+          "]\nto = \"tip\"\nstiffness = " + number(springs_led_to.of_low) +
+          "\nfree = " + number(springs_led_to.depth) + "\n";
+  return run(text + "[[study]]\nname = \"down\"\ncontrol = \"pose\"\ndirection = [0, -1]\n" +
+             "until = { deflection = [0, " + number(to) + "], force = [-30, 30] }\n" +
+             "trace = { maximum_step = " + number(step) + " }\n")
+      .of("down");
+}
+
+/// Sideways, at a depth, nothing holds where 2 k (1 - l0/l + l0 a^2/l^3) + k3 (1 - l30/l3) is zero.
+double depth_of_sway() {
+  const auto stiffness = [](double d) {
+    const double l0 = std::hypot(springs_led_to.beside, springs_led_to.lower),
+                 l = std::hypot(springs_led_to.beside, d - springs_led_to.lower);
+    return 2 * springs_led_to.stiffness *
+               (1 - l0 / l + l0 * springs_led_to.beside * springs_led_to.beside / (l * l * l)) +
+           springs_led_to.of_low * (1 - springs_led_to.depth / (springs_led_to.depth - d));
+  };
+  double low = 0.3, high = 0.75;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (stiffness(middle) > 0 ? low : high) = middle;
+  }
+  return low;
+}
+
+TEST(LengthZero, EndsThePathAndLeavesTheChangeOfStabilityBefore) {
+  for (const double to : {0.79, 1.2}) {
+    const StudyResult result = led_down(to, 0.05);
+    const auto changes = lambdas(result, EventKind::stability_change);
+    ASSERT_EQ(changes.size(), 1u) << "down to " << to;
+    EXPECT_NEAR(changes[0], depth_of_sway(), 1e-9);
+  }
+}
+
+TEST(LengthZero, IsNotPassedInAStepThatTheRangeCuts) {
+  for (const double step : {0.05, 0.3, 0.5}) {
+    SCOPED_TRACE(step);
+    const StudyResult result = led_down(0.85, step);
+    const auto& branch = result.branches.at(0);
+    EXPECT_LE(value(result, branch.samples.size() - 1, "deflection"), springs_led_to.depth);
+    EXPECT_FALSE(branch.forward.complete);
+    EXPECT_THAT(branch.forward.reason, testing::HasSubstr("the length 0"));
+  }
+}
+
+}  // namespace
+}  // namespace springfold::io
