@@ -20,7 +20,7 @@ enum class Range {
   small_count,     ///< 1, 2, ... 1000000
   at_least_one,    ///< any finite number >= 1
   at_least_two,    ///< 2, 3, ... 1000000
-  segment_count,   ///< 1, 2, ... 200
+  segment_count,   ///< 1, 2, ... 5000
 };
 
 /// What a number must be.

@@ -312,7 +312,7 @@ class StudyReader {
                             {"maximum_step", &draft_.maximum_step}})
       if (trace.has(name)) *id = trace.number(name, {Range::positive, ""}, numbers, 0);
     draft_.maximum_points =
-        trace.number("maximum_points", {Range::small_count, ""}, numbers, defaults.maximum_points);
+        trace.number("maximum_points", {Range::at_least_two, ""}, numbers, defaults.maximum_points);
     draft_.spacing = trace.number("spacing", {Range::non_negative, ""}, numbers, defaults.spacing);
     draft_.verify_arcs = trace.truth("verify_arcs", defaults.verify_arcs);
     if (draft_.verify_arcs && draft_.path == analysis::Path::davidenko)
