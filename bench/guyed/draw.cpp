@@ -37,14 +37,31 @@ Anchor random_anchor(const Bare& bare, Random& random) {
   return anchor;
 }
 
+double random_pretension(Random& random) {
+  return pretensions[static_cast<std::size_t>(choice(random, std::size(pretensions)))];
+}
+
+/// A cable before it is attached.
+struct Planned {
+  Anchor anchor{};
+  double stretch = 0;      ///< of its length
+  bool is_second = false;  ///< of a pair: as stiff as the first one
+  bool is_alone = false;   ///< tight, and nothing would hold against it
+};
+
 /// Where every cable is anchored. Tight ones come in opposite pairs, so that the structure stays upright.
-std::vector<Anchor> anchors(const Bare& bare, int count, bool pairs, Random& random) {
-  std::vector<Anchor> list;
+/// @param pretension  not a number: of each pair its own
+std::vector<Planned> planned(const Bare& bare, int count, double pretension, Random& random) {
+  std::vector<Planned> list;
   while (static_cast<int>(list.size()) < count) {
-    list.push_back(random_anchor(bare, random));
-    if (pairs && static_cast<int>(list.size()) < count) {
-      list.push_back(list.back());
-      list.back().at.head(bare.horizontals) *= -1;
+    const double stretch = std::isnan(pretension) ? random_pretension(random) : pretension;
+    list.push_back({random_anchor(bare, random), stretch});
+    const bool is_tight = stretch > 0;
+    if (is_tight && static_cast<int>(list.size()) < count) {
+      list.push_back({list.back().anchor, stretch, true});
+      list.back().anchor.at.head(bare.horizontals) *= -1;
+    } else {
+      list.back().is_alone = is_tight;
     }
   }
   return list;
@@ -81,28 +98,26 @@ std::string study(const Bare& bare, const Draw& draw) {
 }
 
 /// One try; false: it would fall under no load at all.
-bool try_draw(Random& random, bool space_frame, Draw& result) {
+bool try_draw(Random& random, const Kind& kind, Draw& result) {
   result = {};
-  result.pretension = pretensions[static_cast<std::size_t>(choice(random, std::size(pretensions)))];
-  const bool tight = result.pretension > 0;
-  const bool hinges_give = result.pretension < -told_as_resting || choice(random, 4) != 0;
+  result.pretension = kind.mixed ? std::nan("") : random_pretension(random);
+  const bool hinges_give =
+      kind.mixed || result.pretension < -told_as_resting || choice(random, 4) != 0;
   Bare bare =
-      space_frame ? random_space_frame(hinges_give, random) : random_bare(hinges_give, random);
+      kind.space_frame ? random_space_frame(hinges_give, random) : random_bare(hinges_give, random);
   result.family = bare.family;
   result.sways = bare.sways;
   result.structure.springs = bare.springs;
   result.structure.load = bare.load;
   const int count = 1 + choice(random, 6);
-  double stiffness = 1, stretch = 0;
+  double stiffness = 1;
   std::string cables;
-  const std::vector<Anchor> list = anchors(bare, count, tight, random);
+  const std::vector<Planned> list = planned(bare, count, result.pretension, random);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const bool second_of_pair = tight && i % 2 == 1;
-    const bool alone =
-        tight && i + 1 == list.size() && i % 2 == 0;  // nothing would hold against it
-    if (!second_of_pair) stiffness = log_uniform(random, 0.3, 3);
-    stretch = alone ? (choice(random, 2) ? 0 : -result.pretension) : result.pretension;
-    const Attached cable = attach(bare, list[i].corner, list[i].at, stiffness, stretch);
+    const auto& [anchor, wanted, is_second, is_alone] = list[i];
+    if (!is_second) stiffness = log_uniform(random, 0.3, 3);
+    const double stretch = !is_alone ? wanted : choice(random, 2) ? 0 : -wanted;
+    const Attached cable = attach(bare, anchor.corner, anchor.at, stiffness, stretch);
     result.structure.cables.push_back(cable.cable);
     const bool as_chain = bare.horizontals == 1 && choice(random, 2) == 0;
     cables += as_chain ? cable_chain(cable, i + 1) : cable_spring(cable, i + 1);
@@ -118,9 +133,9 @@ bool try_draw(Random& random, bool space_frame, Draw& result) {
 
 }  // namespace
 
-Draw draw(Random& random, bool space_frame) {
+Draw draw(Random& random, const Kind& kind) {
   Draw result;
-  while (!try_draw(random, space_frame, result)) {
+  while (!try_draw(random, kind, result)) {
   }
   return result;
 }

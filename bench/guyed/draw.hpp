@@ -18,9 +18,10 @@ struct Sway {
 };
 
 struct Draw {
-  std::string family{};   ///< "column", "column in space", "frame", "frame in space"
-  double pretension = 0;  ///< of the length of the cables; negative: slack
-  std::string text{};     ///< the case file
+  std::string family{};  ///< "column", "column in space", "frame", "frame in space"
+  double pretension =
+      0;  ///< of the length of the cables; negative: slack; not a number: of each pair its own
+  std::string text{};  ///< the case file
   Structure structure{};
   std::vector<Sway> sways{};  ///< in the order of Structure's coordinates
   double from = 0, to = 0;    ///< loads that the study asks for
@@ -29,8 +30,14 @@ struct Draw {
 /// Cables stretched or slack by less than this part of their length may be told as just at rest.
 inline constexpr double told_as_resting = 1e-10;
 
+/// What is drawn.
+struct Kind {
+  bool space_frame = false;  ///< a frame in space; otherwise one of the other families
+  bool mixed =
+      false;  ///< every cable, or pair of them, has a pretension of its own; otherwise all have one
+};
+
 /// One of the families, with 1 to 6 cables that are stretched, slack or just at rest.
-/// @param space_frame  a frame in space; otherwise one of the other families
-Draw draw(Random& random, bool space_frame);
+Draw draw(Random& random, const Kind& kind);
 
 }  // namespace springfold::guyed

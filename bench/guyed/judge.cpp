@@ -192,7 +192,8 @@ bool is_missing(const std::string& fault) {
 Verdict judge(const Draw& draw, const StudyResult& result) {
   constexpr double rounding = 1e-15;  // stretches that are zero in the case
   Verdict verdict{.reasons = reasons(result), .faults = faults(draw, result, rounding)};
-  if (!verdict.faults.empty() && std::abs(draw.pretension) < told_as_resting) {
+  // Where each pair has its own, some of them may be as small.
+  if (!verdict.faults.empty() && !(std::abs(draw.pretension) >= told_as_resting)) {
     const auto others = faults(draw, result, told_as_resting);
     if (others.size() < verdict.faults.size()) verdict.faults = others;
   }

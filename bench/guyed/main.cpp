@@ -2,7 +2,7 @@
 // load grows, run as case files and judged against closed forms of the linearised cones.
 //
 //     guyed [N] [seed] [--check] [--threads n] [--named file] [--draw i] [--verbose] [--case file]
-//           [--space-frames]
+//           [--space-frames] [--mixed]
 //
 // Draw i of a seed is always the same problem. --named: the draws of a file instead of N of a seed. README.md says what
 // is drawn and what is judged. With --check the exit code is 1 if anything is wrong, or more than one draw in a hundred
@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -31,7 +32,8 @@ struct Settings {
   unsigned long long seed = 1;
   unsigned threads = 1;
   long draw = -1;  ///< only this one
-  bool verbose = false, check = false, space_frames = false;
+  bool verbose = false, check = false;
+  Kind kind{};
   std::string file{};   ///< where the case of the draw is kept
   std::string named{};  ///< draws of this file instead
 };
@@ -39,7 +41,7 @@ struct Settings {
 struct DrawName {
   unsigned long long seed = 1;
   long number = 0;
-  bool space_frame = false;
+  Kind kind{};
 };
 
 struct Judged {
@@ -69,8 +71,8 @@ void print_truth(const Draw& draw) {
   }
 }
 
-/// Lines "seed draw # what it showed"; "frame in space" before the #: a draw of --space-frames. @throws
-/// std::runtime_error with the line that cannot be read
+/// Lines "seed draw # what it showed"; before the # "frame in space": a draw of --space-frames, or "mixed": one of
+/// --mixed. @throws std::runtime_error with the line that cannot be read
 std::vector<DrawName> read_names(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read");
@@ -84,10 +86,10 @@ std::vector<DrawName> read_names(const std::string& path) {
     std::string family;
     const bool numbers = static_cast<bool>(words >> name.seed >> name.number) && name.number >= 0;
     std::getline(words >> std::ws, family);
-    name.space_frame = family.starts_with("frame in space");
-    if (!numbers || (!family.empty() && !name.space_frame))
+    name.kind = {family.starts_with("frame in space"), family.starts_with("mixed")};
+    if (!numbers || (!family.empty() && !name.kind.space_frame && !name.kind.mixed))
       throw std::runtime_error(path + ":" + std::to_string(count) +
-                               ": need seed and draw, perhaps \"frame in space\"");
+                               ": need seed and draw, perhaps \"frame in space\" or \"mixed\"");
     names.push_back(name);
   }
   return names;
@@ -95,17 +97,16 @@ std::vector<DrawName> read_names(const std::string& path) {
 
 std::vector<DrawName> draws_of(const Settings& settings) {
   if (!settings.named.empty()) return read_names(settings.named);
-  if (settings.draw >= 0) return {{settings.seed, settings.draw, settings.space_frames}};
+  if (settings.draw >= 0) return {{settings.seed, settings.draw, settings.kind}};
   std::vector<DrawName> names;
-  for (long i = 0; i < settings.count; ++i)
-    names.push_back({settings.seed, i, settings.space_frames});
+  for (long i = 0; i < settings.count; ++i) names.push_back({settings.seed, i, settings.kind});
   return names;
 }
 
 Judged run(const Settings& settings, const DrawName& name) {
   const long number = name.number;
   Random random(name.seed * 1000003ull + static_cast<unsigned long long>(number));
-  const Draw drawn = draw(random, name.space_frame);
+  const Draw drawn = draw(random, name.kind);
   const auto file = settings.file.empty()
                         ? std::filesystem::temp_directory_path() /
                               ("guyed-" + std::to_string(::getpid()) + "-" +
@@ -174,7 +175,10 @@ bool report(const std::vector<Judged>& results, const Settings& settings) {
     const Outcome outcome = judged.verdict.outcome;
     if (settings.verbose || outcome != Outcome::right) print(judged, settings.verbose);
     char name[40];
-    std::snprintf(name, sizeof name, "pretension %g", judged.pretension);
+    if (std::isnan(judged.pretension))
+      std::snprintf(name, sizeof name, "pretensions of their own");
+    else
+      std::snprintf(name, sizeof name, "pretension %g", judged.pretension);
     by_pretension[name].add(outcome);
     by_family[judged.family].add(outcome);
     all.add(outcome);
@@ -201,7 +205,8 @@ int main(int argc, char** argv) {
   app.add_option("--named", settings.named, "a file of lines: seed, draw; instead of N and seed");
   app.add_option("--draw", settings.draw, "only this draw");
   app.add_option("--case", settings.file, "with --draw: keep the case in this file");
-  app.add_flag("--space-frames", settings.space_frames, "frames in space, nothing else");
+  app.add_flag("--space-frames", settings.kind.space_frame, "frames in space, nothing else");
+  app.add_flag("--mixed", settings.kind.mixed, "every cable, or pair, has a pretension of its own");
   app.add_flag("--verbose", settings.verbose, "all that was expected and found");
   app.add_flag("--check", settings.check, "exit code 1 if a requirement is not met");
   CLI11_PARSE(app, argc, argv);

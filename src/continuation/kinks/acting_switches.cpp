@@ -14,15 +14,28 @@ namespace {
 /// Of the accuracy to which kinks are placed: so far apart they are two.
 constexpr double between_places = 100;
 
+/// What rounding makes of the value of a switch at a kink, on the piece before it or on that behind.
+double error_beside(const Walker& walker, const KinkSearch& kink, const Workspace::Switches& here,
+                    Index j) {
+  CurvePoint behind = kink.point;
+  auto& side = behind.piece[static_cast<std::size_t>(kink.met)];
+  side = side > 0 ? -1 : 1;
+  const auto error_at = [&](const CurvePoint& p) {
+    return error_of_value(walker, p, here.dg_dx, here.dg_dlambda, j);
+  };
+  return std::max(error_at(kink.point), error_at(behind));
+}
+
 /// Is the threshold of a switch that is nearly zero at a kink elsewhere on the curve? A stiff spring that has just come
 /// to act stays as near to its threshold as its force is small. Its value then follows from its rates: it is known
-/// where it is zero. What runs along its surface, or is led by rounding, acts here. A switch that the step leaves was
-/// zero where it begins, however near that is; one that surely moves away from its surface is not about to cross it.
-bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const CurvePoint& kink,
+/// where it is zero, if it is more than rounding. What runs along its surface, or is led by rounding, acts here. A
+/// switch that the step leaves was zero where it begins, however near that is; one that surely moves away from its
+/// surface is not about to cross it.
+bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const KinkSearch& kink,
                        const Workspace::Switches& before, const Workspace::Switches& here, Index j,
                        bool was_left) {
-  const double length = kink.s - from.s, change = here.g[j] - before.g[j];
-  const double rate = sure_rate(walker, here, j, kink),
+  const double length = kink.point.s - from.s, change = here.g[j] - before.g[j];
+  const double rate = sure_rate(walker, here, j, kink.point),
                rate_before = sure_rate(walker, before, j, from);
   const double side = from.piece[static_cast<std::size_t>(j)];
   if (std::min(side * rate, side * rate_before) > 0) return true;
@@ -31,8 +44,9 @@ bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const Curve
   const bool follows =
       std::abs(0.5 * (rate + rate_before) * length - change) <= alike * std::abs(change) &&
       rate * rate_before > 0;
-  return follows &&
-         (was_left || std::abs(here.g[j] / rate) > between_places * walker.options.simultaneous);
+  if (!follows || was_left) return follows;
+  return std::abs(here.g[j] / rate) > between_places * walker.options.simultaneous &&
+         std::abs(here.g[j]) > error_beside(walker, kink, here, j);
 }
 
 }  // namespace
@@ -48,7 +62,7 @@ std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const
     return active;
   std::erase_if(active, [&](Index j) {
     return j != kink.met &&
-           is_zero_elsewhere(walker, from, kink.point, before, here, j, contains(left, j));
+           is_zero_elsewhere(walker, from, kink, before, here, j, contains(left, j));
   });
   return active;
 }
