@@ -91,6 +91,11 @@ std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const
 void part_surfaces(const Walker& walker, const CurvePoint& from, const std::vector<Index>& left,
                    KinkSearch& kink);
 
+/// The curve's own point on the surface of switch j near a point of it, by F = 0 and g_j = 0, with its tangent.
+/// @param from  where the step begins, from which its s is counted
+std::optional<CurvePoint> place_on_surface(const Walker& walker, const CurvePoint& from,
+                                           const CurvePoint& near, Index j);
+
 /// Where one switch acts the kink's point is that of F = 0, g_j = 0: lambda on a steep curve is then as exact as both
 /// are, not as the place along the curve. What does not settle stays as it is.
 void settle_on_surface(const Walker& walker, const CurvePoint& from, KinkSearch& kink);

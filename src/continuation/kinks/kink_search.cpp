@@ -220,6 +220,18 @@ Crossing crossing_of(const SwitchOnStep& f, Cubic cubic, bool leaves) {
   return judge(f, a, cubic);
 }
 
+/// A surface that the curve surely meets, nearer ahead than values on the step tell: its own equations have the place.
+Crossing crossing_right_ahead(const SwitchOnStep& f, const Workspace::Switches& first) {
+  const double rate = f.side * sure_rate(f.walker, first, f.j, f.from),
+               value = f.side * first.g[f.j];
+  if (!(rate < 0) || !(value > 0) || value > f.noise) return {.clear = false};
+  const auto near = point_at(f.walker, f.from, -value / rate);
+  auto place = near ? place_on_surface(f.walker, f.from, *near, f.j) : std::nullopt;
+  const double length = place ? place->s - f.from.s : 0;
+  if (!(length > 0 && length < f.h)) return {.clear = false};
+  return {.located = Located{std::move(*place), 0, length}};
+}
+
 /// The tangent with which a curve arrives at step length `ds`, from its points before: at a branch point the equations
 /// have two directions and do not say which is that of this curve.
 std::optional<Direction> arriving_tangent(const Walker& walker, const CurvePoint& from, double ds) {
@@ -308,6 +320,7 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
       if (on_step.noise < noise) crossing = crossing_of(on_step, ends, contains(left, j));
     }
     if (!crossing.clear && moves_away(on_step, to, ends, {first, last})) continue;
+    if (!crossing.clear) crossing = crossing_right_ahead(on_step, first);
     if (!crossing.clear) return {.status = KinkSearch::Status::suspicious, .suspect = j};
     if (crossing.touches) result.touched.push_back(j);
     if (!crossing.located ||

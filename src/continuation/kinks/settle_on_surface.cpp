@@ -83,23 +83,6 @@ std::optional<CurvePoint> point_on_surface(const Walker& walker, const CurvePoin
   return settled ? std::optional(std::move(point)) : std::nullopt;
 }
 
-/// The same with its tangent, and the way to it.
-/// @param from  where the step begins
-std::optional<CurvePoint> place_on_surface(const Walker& walker, const CurvePoint& from,
-                                           const CurvePoint& near, Index j) {
-  auto point = point_on_surface(walker, near, j);
-  LinearisedPoint* place =
-      point ? linearised_at(walker.problem, *walker.memory, point->x, point->lambda, point->piece)
-            : nullptr;
-  if (place == nullptr ||
-      !tangent_at(*walker.memory, *place, walker.weights, near.tangent, point->tangent) ||
-      !(cosine(walker, point->tangent, near.tangent) > same_way))
-    return std::nullopt;
-  point->s = from.s + std::max(0.0, way_to(walker.weights, from, *point));
-  if (walker.problem.symmetric()) point->negative = place->factors.negative();
-  return point;
-}
-
 void take_place(const CurvePoint& from, CurvePoint place, KinkSearch& kink) {
   kink.before = std::min(kink.before, place.s - from.s);
   kink.after = std::max(kink.after, place.s - from.s);
@@ -150,6 +133,21 @@ bool is_as_good_as_there(const Walker& walker, const CurvePoint& place,
 }
 
 }  // namespace
+
+std::optional<CurvePoint> place_on_surface(const Walker& walker, const CurvePoint& from,
+                                           const CurvePoint& near, Index j) {
+  auto point = point_on_surface(walker, near, j);
+  LinearisedPoint* place =
+      point ? linearised_at(walker.problem, *walker.memory, point->x, point->lambda, point->piece)
+            : nullptr;
+  if (place == nullptr ||
+      !tangent_at(*walker.memory, *place, walker.weights, near.tangent, point->tangent) ||
+      !(cosine(walker, point->tangent, near.tangent) > same_way))
+    return std::nullopt;
+  point->s = from.s + std::max(0.0, way_to(walker.weights, from, *point));
+  if (walker.problem.symmetric()) point->negative = place->factors.negative();
+  return point;
+}
 
 void part_surfaces(const Walker& walker, const CurvePoint& from, const std::vector<Index>& left,
                    KinkSearch& kink) {
