@@ -48,6 +48,20 @@ void end_where_equal(const CaseCurves& curves, LoadPiece& last, LoadPiece& next,
 
 constexpr const char* at_this_value = "at this value alone: it does not move with the parameter";
 
+/// Two pieces meet: both sides of the jump, unless the load is the same.
+void say_jump(const LoadPiece& last, const LoadPiece& next, Branch& before, Branch& behind) {
+  const auto lambda = [](const Sample& sample) { return sample.values[1]; };
+  const double from = lambda(before.samples.back()), to = lambda(behind.samples.front());
+  if (std::abs(to - from) <= std::sqrt(same_load) * std::max(std::abs(from), std::abs(to))) return;
+  const Side &end = last.growing, &begin = next.falling;
+  const std::string cause = begin.decides ? std::string{to_string(*begin.decides)}
+                            : end.decides ? std::string{to_string(*end.decides)}
+                                          : "another critical point comes first";
+  const std::string text = "jumps from " + rounded(from) + " to " + rounded(to) + ": " + cause;
+  mark_jump(before, true, text);
+  mark_jump(behind, false, text);
+}
+
 }  // namespace
 
 std::optional<bool> is_of_piece(const SpecialPoint& first, EventKind of, bool alone,
@@ -121,17 +135,17 @@ void end_at(Side& side, EventKind of, std::size_t hit) {
   side.end = last.mu;
 }
 
-void say_jump(const LoadPiece& last, const LoadPiece& next, Branch& before, Branch& behind) {
-  const auto lambda = [](const Sample& sample) { return sample.values[1]; };
-  const double from = lambda(before.samples.back()), to = lambda(behind.samples.front());
-  if (std::abs(to - from) <= std::sqrt(same_load) * std::max(std::abs(from), std::abs(to))) return;
-  const Side &end = last.growing, &begin = next.falling;
-  const std::string cause = begin.decides ? std::string{to_string(*begin.decides)}
-                            : end.decides ? std::string{to_string(*end.decides)}
-                                          : "another critical point comes first";
-  const std::string text = "jumps from " + rounded(from) + " to " + rounded(to) + ": " + cause;
-  mark_jump(before, true, text);
-  mark_jump(behind, false, text);
+void say_jumps(const std::vector<LoadPiece>& pieces, double room, std::vector<Branch>& branches) {
+  const auto meet = [room](double a, double b) { return std::abs(a - b) <= room; };
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Side &begin = pieces[i].falling, &end = pieces[i].growing;
+    if (i + 1 < pieces.size() && meet(pieces[i + 1].falling.end, end.end))
+      say_jump(pieces[i], pieces[i + 1], branches[i], branches[i + 1]);
+    else if (end.jumps)
+      mark_jump(branches[i], true, "ends: there is no critical point behind" + end.limit);
+    if (begin.jumps && !(i > 0 && meet(begin.end, pieces[i - 1].growing.end)))
+      mark_jump(branches[i], false, "begins: there is no critical point before" + begin.limit);
+  }
 }
 
 Branch row_alone(const CaseCurves& curves, const Member& member, const SpecialPoint& point) {
@@ -185,6 +199,34 @@ void leave_out_points(std::vector<LoadPiece>& pieces, double room) {
     else
       ++i;
   }
+}
+
+void end_stops_where_next_begins(std::vector<LoadPiece>& pieces, double room) {
+  for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+    Side &before = pieces[i].growing, &behind = pieces[i + 1].falling;
+    const bool have_points = !before.curve.points.empty() && !behind.curve.points.empty();
+    if (before.stops == behind.stops || !have_points || std::abs(behind.end - before.end) > room ||
+        !is_same_load_at_ends(load_at_end(before), load_at_end(behind)))
+      continue;
+    Side& side = before.stops ? before : behind;
+    end_curve_at(continuation::CriticalPoint(side.curve.points.back()), another_is_first,
+                 side.curve);
+    side.stops = false;
+    side.another_first = true;
+  }
+}
+
+bool is_settled(const std::vector<LoadPiece>& pieces, double mu, double room) {
+  const auto stops_there = [&](const Side& side) {
+    return side.stops && std::abs(side.end - mu) <= room;
+  };
+  return std::ranges::none_of(pieces,
+                              [&](const LoadPiece& piece) {
+                                return stops_there(piece.falling) || stops_there(piece.growing);
+                              }) &&
+         std::ranges::any_of(pieces, [&](const LoadPiece& piece) {
+           return piece.falling.end - room <= mu && mu <= piece.growing.end + room;
+         });
 }
 
 void say_what_goes_on(const CaseCurves& curves, const std::vector<double>& alone,

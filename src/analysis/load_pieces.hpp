@@ -67,8 +67,9 @@ void insert_in_order(LoadPiece piece, std::vector<LoadPiece>& pieces);
 /// Cuts a side at one of its special points.
 void end_at(Side& side, EventKind of, std::size_t hit);
 
-/// Two pieces meet: both sides of the jump, unless the load is the same.
-void say_jump(const LoadPiece& last, const LoadPiece& next, Branch& before, Branch& behind);
+/// Where two pieces meet: both sides of the jump, unless the load is the same. Where a piece jumps to none: its end.
+/// @param branches  of the pieces
+void say_jumps(const std::vector<LoadPiece>& pieces, double room, std::vector<Branch>& branches);
 
 /// Where a critical point comes to the start, that is one itself: no start beyond is what was to be expected.
 bool ends_at_start(const std::vector<LoadPiece>& pieces, double mu);
@@ -82,6 +83,12 @@ bool is_reached(const CaseCurves& curves, const std::vector<LoadPiece>& pieces, 
 
 /// What is no longer than ends are told apart, and goes on beside it, is no piece of its own.
 void leave_out_points(std::vector<LoadPiece>& pieces, double room);
+
+/// A side that could not be followed beyond its end ends there where the next piece begins with the same load.
+void end_stops_where_next_begins(std::vector<LoadPiece>& pieces, double room);
+
+/// Does a piece have what comes first at this value, and none of them a stop there?
+bool is_settled(const std::vector<LoadPiece>& pieces, double mu, double room);
 
 /// Where one piece meets the next one with the same load, the same point goes on, or the lesser one of two loads: both
 /// end where they are equal.

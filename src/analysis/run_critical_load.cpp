@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -21,7 +22,6 @@ using continuation::CriticalCurve;
 using continuation::CriticalHit;
 using continuation::CriticalPoint;
 using continuation::CriticalStart;
-using continuation::Degeneracy;
 
 /// Parts of the range: how far before its end a piece is looked at, how far behind it the next one is looked for,
 /// and how closely ends are bracketed.
@@ -83,18 +83,20 @@ class LoadsOverParameter {
   bool is_alone(double mu) { return stands_alone(curves_, *curves_.at(mu), *first_at(mu).point); }
 
   void doubt(double mu, const std::string& why) { doubted_.add(mu * curves_.scale(), why); }
+  /// A piece could not be followed; perhaps another one comes there.
+  void failed(double mu, const std::string& why) { failed_.add(mu * curves_.scale(), why); }
 
   /// The piece of the point that comes first at `mu`, within [from, to]; nothing if it cannot be followed.
   std::optional<LoadPiece> piece_of(const SpecialPoint& point, double mu, double from, double to) {
     LoadPiece piece{.of = point.kind};
     std::string why;
     const auto start = critical_start(curves_, *curves_.at(mu), point, why);
-    if (!start) return doubt(mu, why), std::nullopt;
+    if (!start) return failed(mu, why), std::nullopt;
     piece.start = *start;
     piece.growing = mu < to ? side_of(piece, mu, to, why) : Side{};
     const double back = std::max(low_, from - at_degeneracy * width_);
     piece.falling = mu > low_ ? side_of(piece, mu, back, why) : Side{};
-    if (!why.empty()) return doubt(mu, point.label + ": " + why), std::nullopt;
+    if (!why.empty()) return failed(mu, point.label + ": " + why), std::nullopt;
     const auto edge = [&](int sense) {
       return curves_.name() + " " + end_of_range(curves_, sense);
     };
@@ -132,8 +134,7 @@ class LoadsOverParameter {
       found.push_back(std::move(*piece));
       if (stands) break;
     }
-    std::for_each(found.rbegin(), found.rend(),
-                  [this](LoadPiece& piece) { add(std::move(piece)); });
+    for (LoadPiece& piece : std::views::reverse(found)) add(std::move(piece));
   }
 
   void add(LoadPiece piece) {
@@ -171,8 +172,8 @@ class LoadsOverParameter {
                                    critical_options(study_), observe);
     say_why_it_stops(curves_, sense > 0, side.curve);
     say_start_or_its_load(curves_, side.curve);
-    const auto turn = std::find_if(side.curve.hits.begin(), side.curve.hits.end(),
-                                   [](const CriticalHit& hit) { return ends_piece(hit.kind); });
+    const auto turn = std::ranges::find_if(
+        side.curve.hits, [](const CriticalHit& hit) { return ends_piece(hit.kind); });
     if (turn == side.curve.hits.end() && side.curve.stop != continuation::StopReason::event) {
       why = side.curve.stop_detail;
       if (side.curve.points.size() < 2 || !side.curve.kept) return {};
@@ -199,8 +200,8 @@ class LoadsOverParameter {
   /// A side that could not be followed to an end is known as far as it came.
   Side stopped(const LoadPiece& piece, Side side, double mu, double sense, const std::string& why) {
     const CriticalPoint last = side.curve.points.back();
-    doubt(last.mu, std::string{"the piece of "} + code_of(piece.of) +
-                       " could not be followed beyond: " + why);
+    failed(last.mu, std::string{"the piece of "} + code_of(piece.of) +
+                        " could not be followed beyond: " + why);
     side.end = last.mu;
     side.stops = true;
     verify(piece, side, mu, sense);
@@ -272,10 +273,9 @@ class LoadsOverParameter {
       (is_first(piece, side.curve, middle).value_or(false) ? good : bad) = middle;
       known_.erase(middle);
     }
-    const auto near = [&](const CriticalHit& hit) {
-      return may_decide(hit) && std::abs(hit.point.mu - good) <= at_degeneracy * width_;
-    };
-    const auto hit = std::find_if(side.curve.hits.begin(), side.curve.hits.end(), near);
+    const auto hit = std::ranges::find_if(side.curve.hits, [&](const CriticalHit& near) {
+      return may_decide(near) && std::abs(near.point.mu - good) <= at_degeneracy * width_;
+    });
     if (hit != side.curve.hits.end()) {
       side.decides = hit->kind;
       return end_at(side, piece.of, static_cast<std::size_t>(hit - side.curve.hits.begin()));
@@ -293,8 +293,6 @@ class LoadsOverParameter {
     side.another_first = true;
     side.end = last->mu;
   }
-
-  bool meet(double a, double b) const { return std::abs(a - b) <= at_degeneracy * width_; }
 
   /// Just beside a value at which what comes first stands alone there may be pieces that end before the next value.
   /// @returns false where it is not known what comes first there
@@ -350,7 +348,11 @@ class LoadsOverParameter {
     tell_apart();
     lacks_start_.forget(
         [this](double value) { return ends_at_start(pieces_, value / curves_.scale()); });
-    for (const DoubtedValues& doubted : {lacks_start_, doubted_})
+    end_stops_where_next_begins(pieces_, at_degeneracy * width_);
+    failed_.forget([this](double value) {
+      return is_settled(pieces_, value / curves_.scale(), at_degeneracy * width_);
+    });
+    for (const DoubtedValues& doubted : {lacks_start_, doubted_, failed_})
       for (std::string& text : doubted.told(curves_.name()))
         result_.doubts.push_back(std::move(text));
     leave_out_points(pieces_, at_degeneracy * width_);
@@ -360,19 +362,7 @@ class LoadsOverParameter {
       note_passed_at_start(first_point_events(curves_, study_, piece.start.piece), followed);
       result_.branches.push_back(rows_of(curves_, followed));
     }
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      const bool meets =
-          i + 1 < pieces_.size() && meet(pieces_[i + 1].falling.end, pieces_[i].growing.end);
-      if (meets)
-        say_jump(pieces_[i], pieces_[i + 1], result_.branches[i], result_.branches[i + 1]);
-      else if (pieces_[i].growing.jumps)
-        mark_jump(result_.branches[i], true,
-                  "ends: there is no critical point behind" + pieces_[i].growing.limit);
-      const bool met = i > 0 && meet(pieces_[i].falling.end, pieces_[i - 1].growing.end);
-      if (!met && pieces_[i].falling.jumps)
-        mark_jump(result_.branches[i], false,
-                  "begins: there is no critical point before" + pieces_[i].falling.limit);
-    }
+    say_jumps(pieces_, at_degeneracy * width_, result_.branches);
     add_places();
     label_critical(result_.branches);
   }
@@ -385,7 +375,7 @@ class LoadsOverParameter {
   std::vector<double> grid_{};  ///< of the parameter, dimensionless
   std::map<double, FirstUnwanted> known_{};
   std::vector<double> alone_{};  ///< values at which what comes first stands alone
-  DoubtedValues doubted_{}, lacks_start_{};
+  DoubtedValues doubted_{}, lacks_start_{}, failed_{};
   std::vector<LoadPiece> pieces_{};
 };
 
