@@ -1,4 +1,4 @@
-// A point that is led straight through the end of a spring: there the spring's force has no direction, and the path ends.
+// A point that is led straight through the end of a spring: its force has no direction there, and the path ends.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
