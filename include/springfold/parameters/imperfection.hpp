@@ -53,8 +53,9 @@ std::optional<Vector> second_order_force(const Family& family, const CriticalSta
 struct ImperfectionLaw {
   double exponent = 1;  ///< 1, 2/3 or 1/2; twice that of the square of a parameter
   double coefficient =
-      0;         ///< > 0: the critical load is lowered; < 0, a limit point behind it: not sensitive
-  int sign = 0;  ///< of m: with which it holds; 0: with both
+      0;  ///< > 0: the critical load is lowered; < 0, a limit point behind it: not sensitive
+  int sign =
+      0;  ///< of m: with which it holds, where the load falls with both, with which it falls most; 0: with both
 };
 
 /// @param gamma  of a unit imperfection, k entries
