@@ -111,7 +111,7 @@ TEST_F(CaseMessages, SayWhatWasGotAndWhatIsNeeded) {
               ElementsAre("case.toml:3:10: units.length: got 3, need a text"));
   EXPECT_THAT(after("maximum_points = 99", "maximum_points = 9.5"),
               ElementsAre("case.toml:37:91: study[1].trace.maximum_points: got 9.5, need a whole "
-                          "number from 1 to 1000000"));
+                          "number from 2 to 1000000"));
   EXPECT_THAT(after("maximum_points = 99", "spacing = -1"),
               ElementsAre("case.toml:37:84: study[1].trace.spacing: got -1, need a number >= 0"));
   EXPECT_THAT(after("trace = {", "path = \"davidenk\"\ntrace = {"),
