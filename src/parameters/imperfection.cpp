@@ -194,6 +194,51 @@ std::optional<double> first_critical(const LeadingTerms& terms, double towards) 
   return exact ? exact->lambda : found->lambda;
 }
 
+/// Entries that are rounding beside the others of their kind are zero: the form is known to about 1e-11.
+void leave_out_rounding(double size, Eigen::Ref<Matrix> part) {
+  part = (part.array().abs() > one_place * size).select(part, 0);
+}
+
+/// The form where dF/dx is symmetric, in the basis of the modes whose first one is the imperfection's: xi = R eta, and
+/// the equations are turned as the unknowns are. Where a mirror keeps the structure and the imperfection, terms that are
+/// odd in the second mode are rounding and are left out: its branch point on the imperfect path is one then, and no
+/// narrow place.
+/// @returns nothing where V and W span different spaces
+std::optional<ReducedForm> turned_to(const ReducedForm& form, const Vector& gamma) {
+  const Matrix turn = form.V.transpose() * form.W;
+  const Index k = gamma.size();
+  if (!((turn * turn.transpose() - Matrix::Identity(k, k)).norm() <= vanishing_term))
+    return std::nullopt;
+  const Vector along = (turn * gamma).normalized();
+  Matrix R(2, 2);
+  R << along[0], -along[1], along[1], along[0];
+  const Matrix P = R.transpose() * turn;
+  ReducedForm turned = form;
+  turned.V = form.V * R;
+  turned.W = form.W * P.transpose();
+  turned.by_lambda = P * form.by_lambda;
+  turned.curvature = P * form.curvature;
+  turned.mixed = P * form.mixed * R;
+  turned.tangent.dx = R.transpose() * form.tangent.dx;
+  const auto at = [k](Index i, Index j) { return static_cast<std::size_t>(i * k + j); };
+  for (Index i = 0; i < k; ++i) {
+    Matrix A = Matrix::Zero(k, k);
+    for (Index e = 0; e < k; ++e) A += P(i, e) * form.quadratic[static_cast<std::size_t>(e)];
+    turned.quadratic[static_cast<std::size_t>(i)] = R.transpose() * A * R;
+    for (Index j = 0; j < k; ++j) {
+      Matrix G = Matrix::Zero(k, k);
+      for (Index e = 0; e < k; ++e)
+        for (Index u = 0; u < k; ++u) G += P(i, e) * R(u, j) * form.cubic[at(e, u)];
+      turned.cubic[at(i, j)] = R.transpose() * G * R;
+    }
+  }
+  leave_out_rounding(turned.mixed.norm(), turned.mixed);
+  const double quadratic = norm_of(turned.quadratic), cubic = norm_of(turned.cubic);
+  for (Matrix& A : turned.quadratic) leave_out_rounding(quadratic, A);
+  for (Matrix& G : turned.cubic) leave_out_rounding(cubic, G);
+  return turned;
+}
+
 std::optional<ImperfectionLaw> law_of_two_modes(const ReducedForm& form, const Vector& gamma) {
   const bool by_path = !has_lambda(form) && !is_quadratic(form);
   if (by_path && !is_cubic(form)) return std::nullopt;
@@ -232,8 +277,10 @@ bool is_symmetric_point(const ReducedForm& form) {
 std::optional<ImperfectionLaw> imperfection_law(const ReducedForm& form, const Vector& gamma) {
   if (!(gamma.norm() > 0)) return std::nullopt;
   if (gamma.size() == 1) return law_of_one_mode(form, gamma[0]);
-  if (gamma.size() == 2) return law_of_two_modes(form, gamma);
-  return std::nullopt;
+  if (gamma.size() != 2) return std::nullopt;
+  if (const auto turned = turned_to(form, gamma))
+    return law_of_two_modes(*turned, gamma.norm() * Vector::Unit(2, 0));
+  return law_of_two_modes(form, gamma);
 }
 
 namespace {

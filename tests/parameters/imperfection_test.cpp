@@ -152,6 +152,23 @@ TEST(ImperfectionLaws, AugustisColumnHasTheLawOfItsDoubleBranchPoint) {
   }
 }
 
+/// Across the imperfection the column is a mirror image of itself, but for the rounding of the direction.
+TEST(ImperfectionLaws, AlongAnAxisOfSymmetryDoNotDependOnRounding) {
+  const auto start = at_branch_point(Vector::Zero(2), 1);
+  const auto law_along = [&](double psi) {
+    return law_at(family_of<Given>([=](double m) { return augusti(m, psi); }), start,
+                  {Vector::Zero(2), 1});
+  };
+  const auto along = law_along(0);
+  ASSERT_TRUE(along);
+  for (const double off : {1e-12, -5e-11, 3e-10}) {
+    const auto law = law_along(off);
+    ASSERT_TRUE(law) << "off by " << off;
+    EXPECT_EQ(law->exponent, along->exponent);
+    EXPECT_NEAR(law->coefficient, along->coefficient, 1e-7) << "off by " << off;
+  }
+}
+
 TEST(ImperfectionLaws, TheWorstImperfectionOfAugustisColumnIsAt45Degrees) {
   const auto start = at_branch_point(Vector::Zero(2), 1);
   Matrix gammas(2, 2);
