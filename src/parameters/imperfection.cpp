@@ -200,8 +200,8 @@ void leave_out_rounding(double size, Eigen::Ref<Matrix> part) {
 }
 
 /// The form where dF/dx is symmetric, in the basis of the modes whose first one is the imperfection's: xi = R eta, and
-/// the equations are turned as the unknowns are. Where a mirror keeps the structure and the imperfection, terms that are
-/// odd in the second mode are rounding and are left out: its branch point on the imperfect path is one then, and no
+/// the equations are turned as the unknowns are. Where a mirror keeps the structure and the imperfection, terms that
+/// are odd in the second mode are rounding and are left out: its branch point on the imperfect path is one then, and no
 /// narrow place.
 /// @returns nothing where V and W span different spaces
 std::optional<ReducedForm> turned_to(const ReducedForm& form, const Vector& gamma) {
