@@ -86,10 +86,15 @@ std::vector<DrawName> read_names(const std::string& path) {
     std::string family;
     const bool numbers = static_cast<bool>(words >> name.seed >> name.number) && name.number >= 0;
     std::getline(words >> std::ws, family);
-    name.kind = {family.starts_with("frame in space"), family.starts_with("mixed")};
-    if (!numbers || (!family.empty() && !name.kind.space_frame && !name.kind.mixed))
-      throw std::runtime_error(path + ":" + std::to_string(count) +
-                               ": need seed and draw, perhaps \"frame in space\" or \"mixed\"");
+    while (!family.empty() && family.back() == ' ') family.pop_back();
+    name.kind = {family.starts_with("frame in space"), family.ends_with("mixed")};
+    const std::string known = std::string{name.kind.space_frame ? "frame in space" : ""} +
+                              (name.kind.space_frame && name.kind.mixed ? " " : "") +
+                              (name.kind.mixed ? "mixed" : "");
+    if (!numbers || family != known)
+      throw std::runtime_error(
+          path + ":" + std::to_string(count) +
+          ": need seed and draw, perhaps \"frame in space\", \"mixed\" or both");
     names.push_back(name);
   }
   return names;

@@ -231,6 +231,9 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   source.forward_stop = forward_end.value_or(stop_of(forward));
   source.backward_stop =
       forward_only ? source.forward_stop : backward_end.value_or(stop_of(backward));
+  // Where the curve turns back upon itself the path leads no further.
+  if (forward.stop == continuation::StopReason::turns_upon_itself)
+    source.forward_stop.complete = false;
   source.at_start = hits_at_start(with, source);
   const std::vector<Hit> on_start = source.at_start;
   std::vector<BranchRows> rows{join(std::move(source), evaluator, member.quantities(), problem)};

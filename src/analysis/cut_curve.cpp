@@ -18,7 +18,7 @@ namespace {
 class BetweenPoints {
  public:
   BetweenPoints(const CriticalPoint& a, const CriticalPoint& b, bool bends)
-      : a_{a}, b_{b}, bends_{bends && a.dx.size() == a.x.size() && b.dx.size() == b.x.size()} {}
+      : a_{a}, b_{b}, bends_{bends && has_slope(a) && has_slope(b)} {}
 
   /// The part of the way at which the parameter has this value, on the chord where the cubic has none.
   double part_at(double mu) const {
@@ -39,6 +39,9 @@ class BetweenPoints {
   }
 
  private:
+  static bool has_slope(const CriticalPoint& p) {
+    return p.dx.size() == p.x.size() && (p.dlambda != 0 || !p.dx.isZero(0));
+  }
   template <class Value>
   Value value(double t, const Value& a, const Value& da, const Value& b, const Value& db) const {
     const double u = 1 - t, h = b_.s - a_.s;

@@ -205,7 +205,8 @@ void end_stops_where_next_begins(std::vector<LoadPiece>& pieces, double room) {
   for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
     Side &before = pieces[i].growing, &behind = pieces[i + 1].falling;
     const bool have_points = !before.curve.points.empty() && !behind.curve.points.empty();
-    if (before.stops == behind.stops || !have_points || std::abs(behind.end - before.end) > room ||
+    if (pieces[i].of != pieces[i + 1].of || before.stops == behind.stops || !have_points ||
+        std::abs(behind.end - before.end) > room ||
         !is_same_load_at_ends(load_at_end(before), load_at_end(behind)))
       continue;
     Side& side = before.stops ? before : behind;
@@ -225,7 +226,7 @@ bool is_settled(const std::vector<LoadPiece>& pieces, double mu, double room) {
                                 return stops_there(piece.falling) || stops_there(piece.growing);
                               }) &&
          std::ranges::any_of(pieces, [&](const LoadPiece& piece) {
-           return piece.falling.end - room <= mu && mu <= piece.growing.end + room;
+           return piece.falling.end <= mu && mu <= piece.growing.end;
          });
 }
 

@@ -84,10 +84,12 @@ bool is_reached(const CaseCurves& curves, const std::vector<LoadPiece>& pieces, 
 /// What is no longer than ends are told apart, and goes on beside it, is no piece of its own.
 void leave_out_points(std::vector<LoadPiece>& pieces, double room);
 
-/// A side that could not be followed beyond its end ends there where the next piece begins with the same load.
+/// A side that could not be followed beyond its end ends there where a next piece of its kind begins with the same
+/// load.
 void end_stops_where_next_begins(std::vector<LoadPiece>& pieces, double room);
 
-/// Does a piece have what comes first at this value, and none of them a stop there?
+/// Does a piece reach over this value, and has none of them a stop there?
+/// @param room  as far as ends are told apart
 bool is_settled(const std::vector<LoadPiece>& pieces, double mu, double room);
 
 /// Where one piece meets the next one with the same load, the same point goes on, or the lesser one of two loads: both

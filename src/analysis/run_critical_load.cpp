@@ -3,7 +3,6 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -134,7 +133,8 @@ class LoadsOverParameter {
       found.push_back(std::move(*piece));
       if (stands) break;
     }
-    for (LoadPiece& piece : std::views::reverse(found)) add(std::move(piece));
+    std::for_each(found.rbegin(), found.rend(),
+                  [this](LoadPiece& piece) { add(std::move(piece)); });
   }
 
   void add(LoadPiece piece) {

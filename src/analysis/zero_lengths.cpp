@@ -90,13 +90,16 @@ SpringEdges edges_at(const PathProblem& problem, const CurvePoint& point) {
   return spring_edges(problem.system(point.lambda), z, inputs);
 }
 
-/// The curve ends at one of its points, not at what it was to end at.
-void cut(Curve& curve, std::size_t points) {
-  curve.points.resize(points);
-  const double end = curve.points.back().s;
+/// The curve ends at a station of it, a point or a special point, and not at what it was to end at.
+void end_at(const CurvePoint& station, Curve& curve) {
+  const CurvePoint last = station;
+  const double end = last.s;
+  std::erase_if(curve.points, [end](const CurvePoint& point) { return point.s > end; });
   std::erase_if(curve.hits, [end](const auto& hit) { return hit.point.s > end; });
   std::erase_if(curve.arcs, [end](const auto& arc) { return arc.s_end > end; });
+  if (curve.points.empty() || curve.points.back().s < end) curve.points.push_back(last);
   curve.stop = continuation::StopReason::observer;
+  curve.stop_detail.clear();
 }
 
 }  // namespace
@@ -144,13 +147,15 @@ std::optional<Stop> end_at_zero_length(const PathProblem& problem, Curve& curve)
   if (curve.points.empty()) return std::nullopt;
   std::vector<const CurvePoint*> stations;
   for (const CurvePoint& point : curve.points) stations.push_back(&point);
-  // Where the curve ends at an event that cuts its last step, no other point of it lies.
-  if (!curve.hits.empty() && curve.hits.back().stops) stations.push_back(&curve.hits.back().point);
+  // In the last step, which an event cuts, no other points lie.
+  for (const continuation::Hit& hit : curve.hits)
+    if (hit.point.s > curve.points.back().s) stations.push_back(&hit.point);
+  std::ranges::stable_sort(stations, {}, &CurvePoint::s);
   SpringEdges before = edges_at(problem, *stations.front());
   for (std::size_t i = 1; i < stations.size() && !before.is_empty(); ++i) {
     SpringEdges after = edges_at(problem, *stations[i]);
     if (auto reason = led_over_edge(problem.system(stations[i]->lambda), before, after)) {
-      cut(curve, i);
+      end_at(*stations[i - 1], curve);
       return Stop{std::move(*reason), false};
     }
     before = std::move(after);

@@ -84,7 +84,8 @@ inline void expect_laws(ProblemView problem, const Curve& curve) {
   s = 0;
   const bool ends_at_one = curve.stop == StopReason::event || curve.stop == StopReason::joined ||
                            curve.stop == StopReason::several_ways ||
-                           curve.stop == StopReason::no_way_out;
+                           curve.stop == StopReason::no_way_out ||
+                           curve.stop == StopReason::turns_upon_itself;
   for (const Hit& hit : curve.hits) {
     if (hit.kind != HitKind::unresolved) expect_on_curve(hit.point, hit.name);
     EXPECT_LE(hit.s_before, hit.s_after) << hit.name;

@@ -91,7 +91,7 @@ std::vector<Index> tangential_surfaces(const Walker& walker, const CurvePoint& j
     Vector gradient(root.size());
     gradient << at_junction.dg_dx.row(j).transpose(), at_junction.dg_dlambda[j];
     const double unknown = between_samples * way.accuracy * gradient.cwiseQuotient(root).norm();
-    const bool grows = moves * gap / g > more_than_linear;
+    const bool grows = g != 0 && moves * gap / g > more_than_linear;
     const bool is_tangential =
         leaves * gap <= small_share * std::abs(g) || (leaves <= unknown && grows);
     return !is_tangential;

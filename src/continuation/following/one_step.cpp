@@ -46,7 +46,8 @@ bool leads_on(const Walker& walker, const ArcModel& behind, const CurvePoint& be
   // In a cluster, where rounding moves points by more than one place is wide, nothing is told apart anyway.
   return std::ranges::any_of(std::array{&here, &middle, &to}, [&](const CurvePoint* p) {
     const auto other = separation_at(TestedStep(walker, *p, to.s - here.s), *p);
-    return other && other->blur > one_place && off <= between_samples * other->blur;
+    return other && other->blur > one_place && off <= between_samples * other->blur &&
+           (p != &here || off <= small_share * other->distance);
   });
 }
 

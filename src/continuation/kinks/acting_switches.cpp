@@ -14,14 +14,16 @@ namespace {
 /// Of the accuracy to which kinks are placed: so far apart they are two.
 constexpr double between_places = 100;
 
-/// What rounding makes of the value of a switch at a kink, on the piece before it or on that behind.
+/// What rounding makes of the value of a switch at a kink, on the piece before it or on that behind; 0 where that is
+/// not known.
 double error_beside(const Walker& walker, const KinkSearch& kink, const Workspace::Switches& here,
                     Index j) {
   CurvePoint behind = kink.point;
   auto& side = behind.piece[static_cast<std::size_t>(kink.met)];
   side = side > 0 ? -1 : 1;
   const auto error_at = [&](const CurvePoint& p) {
-    return error_of_value(walker, p, here.dg_dx, here.dg_dlambda, j);
+    const double error = error_of_value(walker, p, here.dg_dx, here.dg_dlambda, j);
+    return std::isfinite(error) ? error : 0;
   };
   return std::max(error_at(kink.point), error_at(behind));
 }

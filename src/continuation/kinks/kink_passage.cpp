@@ -150,7 +150,10 @@ bool may_turn_upon_itself(const Walker& walker, const CurvePoint& arrived,
 std::optional<StopReason> dead_end(const Walker& walker, const KinkSearch& kink,
                                    const std::vector<Index>& resting, const Rays& rays, Hit& hit) {
   if (hit.leaving.empty() && kink.active.size() <= most_active)
-    return rays.complete && may_turn_upon_itself(walker, hit.point, resting)
+    return rays.complete &&
+                   std::ranges::all_of(resting,
+                                       [&](Index j) { return contains(kink.active, j); }) &&
+                   may_turn_upon_itself(walker, hit.point, resting)
                ? StopReason::turns_upon_itself
                : StopReason::no_way_out;
   if (!rays.complete) {

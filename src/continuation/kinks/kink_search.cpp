@@ -224,7 +224,8 @@ Crossing crossing_of(const SwitchOnStep& f, Cubic cubic, bool leaves) {
 Crossing crossing_right_ahead(const SwitchOnStep& f, const Workspace::Switches& first) {
   const double rate = f.side * sure_rate(f.walker, first, f.j, f.from),
                value = f.side * first.g[f.j];
-  if (!(rate < 0) || !(value > 0) || value > f.noise) return {.clear = false};
+  const bool is_ahead = rate < 0 && value > 0 && value <= f.noise && value < -rate * f.h;
+  if (!is_ahead || f.walker.problem.structured()) return {.clear = false};
   const auto near = point_at(f.walker, f.from, -value / rate);
   auto place = near ? place_on_surface(f.walker, f.from, *near, f.j) : std::nullopt;
   const double length = place ? place->s - f.from.s : 0;
@@ -320,7 +321,7 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
       if (on_step.noise < noise) crossing = crossing_of(on_step, ends, contains(left, j));
     }
     if (!crossing.clear && moves_away(on_step, to, ends, {first, last})) continue;
-    if (!crossing.clear) crossing = crossing_right_ahead(on_step, first);
+    if (!crossing.clear && !contains(left, j)) crossing = crossing_right_ahead(on_step, first);
     if (!crossing.clear) return {.status = KinkSearch::Status::suspicious, .suspect = j};
     if (crossing.touches) result.touched.push_back(j);
     if (!crossing.located ||

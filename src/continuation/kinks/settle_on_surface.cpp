@@ -161,6 +161,7 @@ void part_surfaces(const Walker& walker, const CurvePoint& from, const std::vect
       return is_as_good_as_there(walker, *place, order.here, j);
     };
     if (!order.is_first || std::ranges::all_of(order.ahead, is_here)) continue;
+    kink.met = first;
     kink.active = std::move(order.here);
     return take_place(from, std::move(*place), kink);
   }

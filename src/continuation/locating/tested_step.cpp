@@ -177,7 +177,8 @@ std::vector<Candidate> branch_points_at(const TestedStep& arc, const std::vector
     if (!candidate) return false;
     // Interpolated places may be two in their rounding, and the exact one is one.
     if (std::ranges::none_of(result, [&](const Candidate& other) {
-          return std::abs(other.at - candidate->at) <= promised_place;
+          return std::abs(other.at - candidate->at) <=
+                 std::max(promised_place, other.off + candidate->off);
         }))
       result.push_back(std::move(*candidate));
     return true;
