@@ -164,36 +164,52 @@ void refuse_start(const BasePath& path, StartReport& report) {
   report.advice = path.advice;
 }
 
+namespace {
+
+/// The two ways out of the start, that of growing lambda first. Empty: `path` says why there are none.
+std::vector<continuation::Ray> ways_from_start(const Member& member, const Study& study,
+                                               BasePath& path) {
+  const PathProblem& problem = *member.problem;
+  const CurvePoint start = member.start();
+  if (const auto outside = outside_start(study, member.evaluator(), member.quantities(), start)) {
+    path.problem = outside->text;
+    path.where = "until." + outside->quantity;
+    path.advice = outside_advice;
+    return {};
+  }
+  continuation::Rays rays =
+      rays_from(problem, start.x, start.lambda, start.piece, options_of(study.trace));
+  if (rays.rays.size() != 2 || !rays.complete) {
+    path.problem = "the start is not an ordinary point of a curve";
+    if (!holds_twice(problem, study, start)) return {};
+    path.problem = held_twice;
+    path.where = "control";
+    path.advice = held_twice_advice;
+    return {};
+  }
+  if (rays.rays[0].tangent.dlambda < rays.rays[1].tangent.dlambda)
+    std::swap(rays.rays[0], rays.rays[1]);
+  return std::move(rays.rays);
+}
+
+}  // namespace
+
 BasePath base_path(const Member& member, bool forward_only, const Observer& observer,
                    double largest_unit, const continuation::HitObserver& enough,
-                   const Study* within) {
+                   const Study* within, const WayOn* way) {
   BasePath path;
   const Study& study = within != nullptr ? *within : member.study;
   const PathProblem& problem = *member.problem;
   const Evaluator& evaluator = member.evaluator();
-  const CurvePoint start = member.start();
-  if (const auto outside = outside_start(study, evaluator, member.quantities(), start)) {
-    path.problem = outside->text;
-    path.where = "until." + outside->quantity;
-    path.advice = outside_advice;
-    return path;
-  }
+  const CurvePoint start = way != nullptr ? way->from : member.start();
   const continuation::TraceOptions options = options_of(study.trace);
-  continuation::Rays rays = rays_from(problem, start.x, start.lambda, start.piece, options);
-  if (rays.rays.size() != 2 || !rays.complete) {
-    path.problem = "the start is not an ordinary point of a curve";
-    if (!holds_twice(problem, study, start)) return path;
-    path.problem = held_twice;
-    path.where = "control";
-    path.advice = held_twice_advice;
-    return path;
-  }
-  if (rays.rays[0].tangent.dlambda < rays.rays[1].tangent.dlambda)
-    std::swap(rays.rays[0], rays.rays[1]);
+  const std::vector<continuation::Ray> rays =
+      way != nullptr ? std::vector{way->ray} : ways_from_start(member, study, path);
+  if (rays.empty()) return path;
   const auto events = events_of(study, evaluator, member.quantities());
   int points = 0;
   LambdaCrawl crawl(problem, largest_unit, range_of_lambda(study, member.setup));
-  crawl.begin(rays.rays[0].tangent);
+  crawl.begin(rays[0].tangent);
   int left = points_behind;
   Crawl seen = Crawl::none;
   InfiniteForceWatch forces(problem, events);
@@ -214,11 +230,11 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
     forces.end(curve, options);
     return curve;
   };
-  Curve forward = follow(rays.rays[0]);
+  Curve forward = follow(rays[0]);
   Curve backward =
       forward_only || forward.stop == continuation::StopReason::closed || crawl.factor() > 1
           ? nothing_behind(forward)
-          : follow(rays.rays[1]);
+          : follow(rays[1]);
   path.lambda_unit = crawl.factor();
   if (path.lambda_unit > 1) return path;
   forward = with_hits_merged(std::move(forward), evaluator);

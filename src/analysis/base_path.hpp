@@ -5,6 +5,7 @@
 #include "springfold/analysis/run.hpp"
 #include "springfold/continuation/curve.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "ways_on.hpp"
 
 namespace springfold::analysis {
 
@@ -43,9 +44,10 @@ void refuse_start(const BasePath& path, StartReport& report);
 /// @param enough  true: nothing far behind this point is asked for
 /// @param largest_unit  by which factor the unit of lambda may grow where it turns out to be too small (LambdaCrawl)
 /// @param within  the study with other limits; nullptr: the member's own
+/// @param way  the path begins there, and is followed along it alone; nullptr: at the start
 BasePath base_path(const Member& member, bool forward_only, const Observer& observer,
                    double largest_unit = 1, const continuation::HitObserver& enough = {},
-                   const Study* within = nullptr);
+                   const Study* within = nullptr, const WayOn* way = nullptr);
 
 /// The curves of a study, and the path of the case's own one.
 struct CurvesWithPath {

@@ -9,13 +9,16 @@
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "springfold/core/number_text.hpp"
+#include "ways_on.hpp"
 
 namespace springfold::analysis {
 namespace {
 
+using continuation::Curve;
 using continuation::CurvePoint;
 using continuation::Hit;
 using continuation::HitKind;
+using continuation::Ray;
 
 std::optional<Index> unstable_modes(const PathProblem& problem, const CurvePoint& point) {
   continuation::Linearisation at;
@@ -66,6 +69,53 @@ PathRule load_rule(const CommandSetup& setup, const CommandedState& state, const
   return rule;
 }
 
+/// The curves of one node under a growing load.
+class LoadedNode {
+ public:
+  LoadedNode(const PathProblem& problem, const continuation::TraceOptions& options)
+      : problem_{problem}, options_{options} {}
+
+  bool keeps_stability(const Hit& hit) const { return !loses_stability(problem_, hit); }
+
+  /// Special points before a kink are told as they are met, kinks and what is unresolved stand in the curve alone:
+  /// there the number of unstable modes ends it.
+  Curve follow(const CurvePoint& from, const Ray& ray) const {
+    const std::vector<continuation::Event> events{{"limit",
+                                                   [](const CurvePoint& p) { return p.lambda - 1; },
+                                                   continuation::EventAction::stop}};
+    const auto is_stable = [this](const CurvePoint& p) {
+      return !p.negative || *p.negative <= problem_.closures();
+    };
+    return trace(problem_, from.x, from.lambda, ray, events, options_, is_stable,
+                 [this](const Hit& hit) { return keeps_stability(hit); });
+  }
+
+  /// The one way on along which the load still grows behind a branch point, if that is stable: nothing is lost where a
+  /// load straightens what was bent.
+  std::optional<Ray> taken_over_at(const Hit& hit) const {
+    const bool branches = hit.kind == HitKind::branch_point || hit.kind == HitKind::branching_kink;
+    if (!branches) return std::nullopt;
+    const auto ways = ways_from(problem_, hit.point, options_);
+    if (!ways) return std::nullopt;
+    std::optional<Ray> taken;
+    for (const WayOn& way : *ways) {
+      const CurvePoint& beside = *way.ray.start;
+      if (!(beside.lambda > hit.point.lambda)) continue;
+      const auto modes = unstable_modes(problem_, beside);
+      if (taken || !modes || *modes > 0) return std::nullopt;
+      taken = way.ray;
+    }
+    return taken;
+  }
+
+ private:
+  const PathProblem& problem_;
+  const continuation::TraceOptions& options_;
+};
+
+/// One node is handed over from branch to branch no more often: each time at a greater load.
+constexpr int most_handovers = 50;
+
 }  // namespace
 
 CriticalLoad critical_load(const CommandSetup& setup, const CommandedState& state,
@@ -78,22 +128,23 @@ CriticalLoad critical_load(const CommandSetup& setup, const CommandedState& stat
     return {undefined, "moments on a spatial body that turns about several axes have no potential"};
   const Vector y = problem.reduce(state.z);
   const auto rays = rays_from(problem, y, 0, state.piece, options);
-  const continuation::Ray* forward = nullptr;
+  const Ray* forward = nullptr;
   for (const auto& ray : rays.rays)
     if (ray.tangent.dlambda > 0 && (!forward || ray.tangent.dlambda > forward->tangent.dlambda))
       forward = &ray;
   if (forward == nullptr || !rays.complete)
     return {undefined, "the node is no ordinary point of its curve"};
-  const std::vector<continuation::Event> events{
-      {"limit", [](const CurvePoint& p) { return p.lambda - 1; }, continuation::EventAction::stop}};
-  // Special points before a kink are told as they are met, kinks and what is unresolved stand in the curve alone: there
-  // the number of unstable modes ends it.
-  const auto is_stable = [&](const CurvePoint& p) {
-    return !p.negative || *p.negative <= problem.closures();
+  const LoadedNode node(problem, options);
+  Curve curve = node.follow({.x = y, .lambda = 0, .piece = state.piece}, *forward);
+  const auto first_loss = [&] {
+    return std::ranges::find_if(curve.hits, [&](const Hit& h) { return !node.keeps_stability(h); });
   };
-  const auto keeps_stability = [&](const Hit& hit) { return !loses_stability(problem, hit); };
-  const auto curve = trace(problem, y, 0, *forward, events, options, is_stable, keeps_stability);
-  const auto loss = std::ranges::find_if_not(curve.hits, keeps_stability);
+  auto loss = first_loss();
+  for (int i = 0; i < most_handovers && loss != curve.hits.end(); ++i, loss = first_loss()) {
+    const auto onward = node.taken_over_at(*loss);
+    if (!onward) break;
+    curve = node.follow(CurvePoint(loss->point), *onward);
+  }
   if (loss == curve.hits.end()) {
     const bool is_whole = curve.stop == continuation::StopReason::event;
     if (is_whole) return {std::numeric_limits<double>::infinity(), ""};

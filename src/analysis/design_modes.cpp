@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "first_unwanted.hpp"
+#include "load_path.hpp"
 #include "switching_starts.hpp"
 
 namespace springfold::analysis {
@@ -26,14 +26,16 @@ int modes_at(const DesignPath& path, const SpecialPoint& point) {
   return std::max(1, pieces);
 }
 
-FirstModes modes_of(const DesignPath& path, const CriticalRequirement& wanted) {
+FirstModes modes_of(const DesignPath& path, const CriticalRequirement& wanted,
+                    const Observer& observer) {
   const CriticalPointSettings settings = settings_of(wanted);
   FirstModes found;
-  for (const SpecialPoint& point : path.path().points) {
-    if (!is_unwanted(path.base(), settings, path.path(), point)) continue;
-    const bool more = found.first != nullptr;
+  found.path = load_path(path.path(), path.base(), settings, observer);
+  for (const SpecialPoint& point : found.path.points) {
+    if (!is_unwanted(path.base(), settings, found.path, point)) continue;
+    const bool more = found.first.has_value();
     if (more && !(is_mode(path, point) && is_mode(path, *found.first))) break;
-    if (!more) found.first = &point;
+    if (!more) found.first = point;
     const auto reached = path.at_point(point, wanted.quantity);
     if (!reached || (more && !(reached->value >= found.modes.front().value))) break;
     const int count = modes_at(path, point);
@@ -59,8 +61,8 @@ CriticalPointSettings settings_of(const CriticalRequirement& wanted) {
 
 FirstModes first_modes(const DesignCase& of, const Vector& values, const DesignPath& path,
                        const CriticalRequirement& wanted, const Observer& observer) {
-  FirstModes found = modes_of(path, wanted);
-  const bool is_multiple = found.first != nullptr && modes_at(path, *found.first) > 1;
+  FirstModes found = modes_of(path, wanted, observer);
+  const bool is_multiple = found.first && modes_at(path, *found.first) > 1;
   if (!is_multiple || knows_rates(found)) return found;
   // Every parameter by another amount: those of a symmetric structure do not move alike.
   Vector near = values;
@@ -69,7 +71,7 @@ FirstModes first_modes(const DesignCase& of, const Vector& values, const DesignP
   DesignPath other(of, near);
   if (!other.has_start()) return found;
   other.trace(observer);
-  const FirstModes apart = modes_of(other, wanted);
+  const FirstModes apart = modes_of(other, wanted, observer);
   for (std::size_t i = 0; i < std::min(found.modes.size(), apart.modes.size()); ++i)
     found.modes[i].rates = apart.modes[i].rates;
   return found;

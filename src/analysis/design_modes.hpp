@@ -1,6 +1,7 @@
 // Modes that are lost one after the other on the path of a design. Private to analysis.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "design_path.hpp"
@@ -10,7 +11,8 @@ namespace springfold::analysis {
 
 /// The first unwanted point of a path, and the branch points behind it.
 struct FirstModes {
-  const SpecialPoint* first = nullptr;  ///< of the path; nullptr: there is none
+  BasePath path{};                      ///< that of the load, load_path()
+  std::optional<SpecialPoint> first{};  ///< of the path; nothing: there is none
   /// The quantity that is required at them, one per mode, not falling; empty: it is not defined at the first one. The
   /// least load of several modes has an edge where two of them come together, and the best design often lies on it: one
   /// inequality for each is smooth there.

@@ -75,9 +75,9 @@ DesignPath::DesignPath(const DesignCase& of, const Vector& values, const Vector&
 
 void DesignPath::trace(const Observer& observer) { path_ = base_path(base(), true, observer); }
 
-std::string DesignPath::doubt() const {
-  if (!path_.problem.empty()) return path_.problem;
-  return path_.branch.forward.complete ? "" : path_.branch.forward.reason;
+std::string doubt_of(const BasePath& path) {
+  if (!path.problem.empty()) return path.problem;
+  return path.branch.forward.complete ? "" : path.branch.forward.reason;
 }
 
 std::size_t DesignPath::column(const std::string& name) const {
@@ -128,8 +128,9 @@ std::optional<Measure> DesignPath::at_value(const std::string& name, const std::
   return std::nullopt;
 }
 
-std::optional<Measure> DesignPath::least_slope(const std::string& quantity, double end) const {
-  const auto least = analysis::least_slope(base(), path_, quantity, end, slope_units_);
+std::optional<Measure> DesignPath::least_slope(const BasePath& path, const std::string& quantity,
+                                               double end) const {
+  const auto least = analysis::least_slope(base(), path, quantity, end, slope_units_);
   if (!least) return std::nullopt;
   return with_rates(least->value, [&](const CaseCurves& curves) -> std::optional<Vector> {
     const auto rate = rate_of(curves, curves.base(), *least);

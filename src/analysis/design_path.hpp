@@ -18,6 +18,9 @@ struct Measure {
   Vector rates{};
 };
 
+/// Why a path is not known to its end; empty: it is.
+std::string doubt_of(const BasePath& path);
+
 /// The case as a function of its parameters, those of the design having other values.
 struct DesignCase {
   Study study{};                       ///< marks are those that the requirements need
@@ -37,8 +40,6 @@ class DesignPath {
   bool has_start() const { return families_.front()->base().report.found; }
   const Member& base() const { return families_.front()->base(); }
   const BasePath& path() const { return path_; }
-  /// Why the path is not known to its end; empty: it is.
-  std::string doubt() const;
 
   std::optional<Measure> at_start(const std::string& column) const;
   /// At the first passage of `along` through `value`, which is a mark of the case, or the start.
@@ -48,7 +49,9 @@ class DesignPath {
 
   /// The least slope of the path before `quantity` passes `end`: d(lambda)/ds, under displacement control that of the
   /// force, in the units of the case. The path turns back where it is negative.
-  std::optional<Measure> least_slope(const std::string& quantity, double end) const;
+  /// @param path  of the base, or that of the load
+  std::optional<Measure> least_slope(const BasePath& path, const std::string& quantity,
+                                     double end) const;
 
  private:
   std::size_t column(const std::string& name) const;

@@ -169,22 +169,22 @@ bool Requirements::add_critical(const DesignPath& path, const Vector& values,
       continue;
     }
     const FirstModes found = first_modes(case_, values, path, wanted, observer);
-    const SpecialPoint* const first = found.first;
-    if (first == nullptr && !path.doubt().empty()) {
-      sheet.why = path.doubt();
+    const std::optional<SpecialPoint>& first = found.first;
+    if (!first && !doubt_of(found.path).empty()) {
+      sheet.why = doubt_of(found.path);
       return false;
     }
-    if (first != nullptr && found.modes.empty()) {
+    if (first && found.modes.empty()) {
       sheet.why = wanted.quantity + " is not defined at " + first->label;
       return false;
     }
-    const double reached = first != nullptr ? found.modes.front().value : infinite;
+    const double reached = first ? found.modes.front().value : infinite;
     sheet.begin(blank[i], reached);
     const bool climbs = ways[i] == Way::climbing;
-    const bool turns = first != nullptr && (first->kind == EventKind::limit_point ||
-                                            first->kind == EventKind::corner_limit_point);
+    const bool turns = first && (first->kind == EventKind::limit_point ||
+                                 first->kind == EventKind::corner_limit_point);
     if (climbs) {
-      const auto slope = path.least_slope(wanted.quantity, wanted.at_least);
+      const auto slope = path.least_slope(found.path, wanted.quantity, wanted.at_least);
       if (!slope) {
         sheet.why = "the slope of the path is not known";
         return false;
@@ -193,12 +193,12 @@ bool Requirements::add_critical(const DesignPath& path, const Vector& values,
     }
     // A limit point is what the climb rules out.
     const double scale = scale_of(wanted.at_least);
-    const bool counts = first != nullptr && !(climbs && turns) && std::isfinite(wanted.at_least);
+    const bool counts = first && !(climbs && turns) && std::isfinite(wanted.at_least);
     for (std::size_t k = 0; k < modes_together; ++k)
       if (counts && k < found.modes.size())
         sheet.add((wanted.at_least - found.modes[k].value) / scale, -found.modes[k].rates / scale);
       else
-        sheet.add(k == 0 && first != nullptr && !climbs && !counts ? 1 : -1, still);
+        sheet.add(k == 0 && first && !climbs && !counts ? 1 : -1, still);
     // With the slope at its limit two limit points merge: whether they are seen is rounding.
     sheet.requirements.back().holds = reached >= wanted.at_least - design_tolerance * scale;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "force_events.hpp"
+#include "load_path.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/number_text.hpp"
 #include "springfold/parameters/two_parameter.hpp"
@@ -99,9 +100,9 @@ FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& 
     if (found != path.points.end()) first.point = *found;
     return first.point.has_value();
   };
-  BasePath path = base_path(*member, true, observer, 1, enough);
+  BasePath path = load_path(*member, settings, observer, enough);
   if (find(path)) return first;
-  if (path.is_enough) path = base_path(*member, true, observer);
+  if (path.is_enough) path = load_path(*member, settings, observer);
   if (find(path)) return first;
   const bool hides = std::any_of(path.points.begin(), path.points.end(), [](const SpecialPoint& p) {
     return p.kind == EventKind::unresolved;
@@ -163,7 +164,7 @@ std::string limit_on_the_way(const Member& member, const BasePath& path,
     if (std::isfinite(limit.low)) limit.low -= more(limit.low);
     if (std::isfinite(limit.high)) limit.high += more(limit.high);
   }
-  const BasePath beyond = base_path(member, true, observer, 1, {}, &wider);
+  const BasePath beyond = load_path(member, settings, observer, {}, &wider);
   const bool comes =
       std::any_of(beyond.points.begin(), beyond.points.end(),
                   [&](const SpecialPoint& p) { return is_unwanted(member, settings, beyond, p); });
@@ -217,13 +218,13 @@ std::string why_path_misses(const CaseCurves& curves, double mu, double beside,
                             const Observer& observer) {
   const Member* member = curves.at(mu);
   if (member != nullptr && !first.point && first.why.empty()) {
-    const BasePath path = base_path(*member, true, observer);
+    const BasePath path = load_path(*member, settings, observer);
     const std::string limit = limit_on_the_way(*member, path, settings, observer);
     if (!limit.empty()) return ", as the path ends first: " + limit;
   }
   member = curves.at(beside);
   if (member == nullptr) return {};
-  const BasePath path = base_path(*member, true, observer);
+  const BasePath path = load_path(*member, settings, observer);
   const double range = (settings.high - settings.low) / curves.scale();
   const auto crossing = crossing_on_the_way(curves, beside, path, range);
   if (!crossing) return {};

@@ -21,7 +21,10 @@ constexpr double slope_step = 0x1p-9;  ///< of the six-point differences
 /// Half of the digits of a number: a minimum is not better known from values.
 constexpr int bits = 26;
 
-bool switches_there(const Hit& hit) { return !hit.switches.empty() && !hit.leaving.empty(); }
+/// Springs switch there, or the path goes on along another branch.
+bool breaks_there(const Hit& hit) {
+  return !hit.leaving.empty() && (!hit.switches.empty() || hit.kind == HitKind::branch_point);
+}
 
 /// A stretch of the path without switching springs.
 struct Stretch {
@@ -36,7 +39,7 @@ std::vector<Stretch> stretches_of(const continuation::Curve& curve) {
   const auto add = [&](const CurvePoint& point) {
     for (; h < curve.hits.size() && curve.hits[h].point.s <= point.s; ++h) {
       const Hit& hit = curve.hits[h];
-      if (!switches_there(hit)) continue;
+      if (!breaks_there(hit)) continue;
       all.back().points.push_back(hit.point);
       all.back().to = &hit;
       all.push_back({{hit.leaving.front()}, &hit, nullptr});

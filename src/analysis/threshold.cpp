@@ -11,6 +11,7 @@
 #include "cut_curve.hpp"
 #include "first_unwanted.hpp"
 #include "limits.hpp"
+#include "load_path.hpp"
 #include "load_pieces.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/number_text.hpp"
@@ -239,7 +240,7 @@ class Threshold {
     constexpr double parted =
         1e-6;  // of the size of the state: values next to each other move it far less
     const auto end = [&](double value) {
-      const BasePath path = base_path(*curves_.at(value), true, observer_);
+      const BasePath path = load_path(*curves_.at(value), study_.critical, observer_);
       Vector state;
       if (!path.problem.empty() || path.forward.points.empty()) return state;
       const continuation::CurvePoint& last = path.forward.points.back();
