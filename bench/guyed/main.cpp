@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -71,6 +72,18 @@ void print_truth(const Draw& draw) {
   }
 }
 
+/// As files of draws have it.
+std::string name_of(const Kind& kind) {
+  return std::string{kind.space_frame ? "frame in space" : ""} +
+         (kind.space_frame && kind.mixed ? " " : "") + (kind.mixed ? "mixed" : "");
+}
+
+std::optional<Kind> kind_named(const std::string& name) {
+  for (const Kind kind : {Kind{}, Kind{true, false}, Kind{false, true}, Kind{true, true}})
+    if (name == name_of(kind)) return kind;
+  return std::nullopt;
+}
+
 /// Lines "seed draw # what it showed"; before the # "frame in space": a draw of --space-frames, or "mixed": one of
 /// --mixed. @throws std::runtime_error with the line that cannot be read
 std::vector<DrawName> read_names(const std::string& path) {
@@ -87,14 +100,12 @@ std::vector<DrawName> read_names(const std::string& path) {
     const bool numbers = static_cast<bool>(words >> name.seed >> name.number) && name.number >= 0;
     std::getline(words >> std::ws, family);
     while (!family.empty() && family.back() == ' ') family.pop_back();
-    name.kind = {family.starts_with("frame in space"), family.ends_with("mixed")};
-    const std::string known = std::string{name.kind.space_frame ? "frame in space" : ""} +
-                              (name.kind.space_frame && name.kind.mixed ? " " : "") +
-                              (name.kind.mixed ? "mixed" : "");
-    if (!numbers || family != known)
+    const auto kind = kind_named(family);
+    if (!numbers || !kind)
       throw std::runtime_error(
           path + ":" + std::to_string(count) +
           ": need seed and draw, perhaps \"frame in space\", \"mixed\" or both");
+    name.kind = *kind;
     names.push_back(name);
   }
   return names;

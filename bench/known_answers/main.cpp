@@ -47,7 +47,8 @@
 // A touch has multiplicity two and may stand for two folds or branch points closer than 1e-4 of the
 // size.
 // Places may be off by 1e-10 and by what rounding of dF/dq explains (from the eigenvalue's slope
-// between the stored points around); among others closer than 1e-4, by a tenth of their separation.
+// between the stored points around, and by its root at touches, where that is zero); among others
+// closer than 1e-4, by a tenth of their separation.
 //
 // With --check the exit code is 1 if a requirement is not met; known gaps are printed as such, but
 // do not count: exact places and counts within such clusters. With --named the draws of that file are

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "springfold/core/hermite.hpp"
+
 namespace springfold::analysis {
 
 using continuation::CriticalHit;
@@ -13,24 +15,32 @@ using continuation::CriticalStart;
 
 namespace {
 
+/// Of a place on a cubic: a bisection would need as many for all digits.
+constexpr std::uintmax_t most_refinements = 60;
+
 /// Between two points of a critical curve the curve is smooth by its length, also where lambda runs like a root of the
 /// parameter: the cubics by their values and slopes; chords where a slope is not known.
 class BetweenPoints {
  public:
   BetweenPoints(const CriticalPoint& a, const CriticalPoint& b, bool bends)
-      : a_{a}, b_{b}, bends_{bends && has_slope(a) && has_slope(b)} {}
+      : a_{a}, b_{b}, bends_{bends} {}
+
+  static bool may_bend(const CriticalPoint& a, const CriticalPoint& b) {
+    return has_slope(a) && has_slope(b);
+  }
 
   /// The part of the way at which the parameter has this value, on the chord where the cubic has none.
   double part_at(double mu) const {
     if (a_.mu == b_.mu) return 0;
     const auto off = [&](double t) { return value(t, a_.mu, a_.dmu, b_.mu, b_.dmu) - mu; };
     if (!bends_ || off(0) * off(1) > 0) return (mu - a_.mu) / (b_.mu - a_.mu);
-    std::uintmax_t most = 60;
+    std::uintmax_t most = most_refinements;
     const auto [low, high] = boost::math::tools::toms748_solve(
         off, 0.0, 1.0, boost::math::tools::eps_tolerance<double>(), most);
     return 0.5 * (low + high);
   }
 
+  double s_at(double t) const { return a_.s + t * (b_.s - a_.s); }
   CriticalStart start_at(double t, const CriticalStart& of) const {
     CriticalStart start = of;
     start.x = value(t, a_.x, a_.dx, b_.x, b_.dx);
@@ -44,14 +54,23 @@ class BetweenPoints {
   }
   template <class Value>
   Value value(double t, const Value& a, const Value& da, const Value& b, const Value& db) const {
-    const double u = 1 - t, h = b_.s - a_.s;
-    if (!bends_) return u * a + t * b;
-    return u * u * ((1 + 2 * t) * a + t * h * da) + t * t * ((1 + 2 * u) * b - u * h * db);
+    if (!bends_) return (1 - t) * a + t * b;
+    return HermiteCubic<Value>{a, da, b, db, b_.s - a_.s}.at(t);
   }
 
   const CriticalPoint &a_, &b_;
   bool bends_;
 };
+
+std::optional<CriticalPoint> point_between(const CaseCurves& curves, const CriticalStart& of,
+                                           const BetweenPoints& between, double mu) {
+  const double part = between.part_at(mu);
+  CriticalStart start = between.start_at(part, of);
+  start.mu = mu;
+  auto found = polish_critical(curves.family(), start);
+  if (found) found->s = between.s_at(part);
+  return found;
+}
 
 }  // namespace
 
@@ -66,19 +85,10 @@ std::optional<CriticalPoint> point_of_curve(const CaseCurves& curves, const Crit
     const CriticalPoint &a = points[i], &b = points[i + 1];
     const bool behind_all = i + 2 == points.size() && std::abs(b.mu - mu) <= room;
     if ((a.mu - mu) * (b.mu - mu) > 0 && !behind_all) continue;
-    std::optional<CriticalPoint> found;
     // Where the parameter stands still at the very place, as at that of a symmetric structure, the chord may meet it.
-    for (const bool bends : {true, false}) {
-      const BetweenPoints between(a, b, bends);
-      const double part = between.part_at(mu);
-      CriticalStart start = between.start_at(part, of);
-      start.mu = mu;
-      found = polish_critical(curves.family(), start);
-      if (!found) continue;
-      found->s = a.s + part * (b.s - a.s);
-      break;
-    }
-    return found;
+    auto found =
+        BetweenPoints::may_bend(a, b) ? point_between(curves, of, {a, b, true}, mu) : std::nullopt;
+    return found ? found : point_between(curves, of, {a, b, false}, mu);
   }
   return std::nullopt;
 }

@@ -5,9 +5,9 @@
 
 namespace springfold::analysis {
 
-/// The curve from the start in the direction in which lambda grows, base_path(). At a branch point where it turns back, while just
-/// one other branch leads on with growing load and is stable, the path goes on along that one: no stability is lost
-/// where a load straightens what was bent. Everywhere else, and where that is not known, it is the curve.
+/// The curve from the start in the direction in which lambda grows, base_path(). At a branch point where it turns back,
+/// while just one other branch leads on with growing load and is stable, the path goes on along that one: no stability
+/// is lost where a load straightens what was bent. Everywhere else, and where that is not known, it is the curve.
 /// Labels count along the path.
 /// @param settings  whose loss counts: under the study's control or under dead load, where the force is the load
 /// @param enough, within  as in base_path()

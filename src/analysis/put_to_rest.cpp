@@ -1,5 +1,6 @@
 #include "put_to_rest.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -15,10 +16,15 @@
 namespace springfold::analysis {
 namespace {
 
-/// Per spring of joints and of shapes, in the order of the system: by how much its law is to be moved, dimensionless.
+/// A breakpoint that is to be moved, dimensionless.
+struct Shift {
+  double from = 0, by = 0;
+};
+
+/// Per spring of joints and of shapes, in the order of the system; by 0: none.
 struct Shifts {
-  std::vector<double> joints{}, shapes{};
-  bool any = false;
+  std::vector<Shift> joints{}, shapes{};
+  double largest = 0;
 };
 
 /// A threshold is exactly where the coordinate is, but for the rounding of both.
@@ -28,17 +34,23 @@ bool is_upon(double g, double breakpoint) {
 }
 
 Shifts shifts_of(const statics::System& system, const statics::FirstEquilibrium& first) {
-  Shifts shifts{std::vector<double>(system.springs.size(), 0.0),
-                std::vector<double>(system.shapes.size(), 0.0)};
+  Shifts shifts{std::vector<Shift>(system.springs.size()), std::vector<Shift>(system.shapes.size()),
+                0};
   const double near = continuation::TraceOptions{}.simultaneous;
   for (std::size_t j = 0; j < system.switches.size(); ++j) {
     const statics::Switch& at = system.switches[j];
     const double g = switch_value(system, j, first.z, first.inputs.rho);
     if (!(std::abs(g) <= near) || is_upon(g, at.breakpoint)) continue;
-    (at.of_shape() ? shifts.shapes : shifts.joints)[at.spring] = g;
-    shifts.any = true;
+    (at.of_shape() ? shifts.shapes : shifts.joints)[at.spring] = {at.breakpoint, g};
+    shifts.largest = std::max(shifts.largest, std::abs(g));
   }
   return shifts;
+}
+
+void move(const Shift& shift, double unit, model::SpringLaw& law) {
+  if (shift.by == 0) return;
+  const double from = shift.from * unit;
+  law = model::with_breakpoint(law, from, from + shift.by * unit);
 }
 
 void move_springs(const Shifts& shifts, const Scales& scales, model::Mechanism& mechanism) {
@@ -48,16 +60,13 @@ void move_springs(const Shifts& shifts, const Scales& scales, model::Mechanism& 
       auto* joint = std::get_if<model::Joint>(&element);
       if (joint == nullptr || !joint->spring || !has_coordinate(*joint)) continue;
       const double unit = joint->kind == model::JointKind::prismatic ? scales.length : 1;
-      const double shift = shifts.joints[spring++];
-      if (shift != 0) joint->spring = model::moved(*joint->spring, shift * unit);
+      move(shifts.joints[spring++], unit, *joint->spring);
     }
   for (std::size_t i = 0; i < mechanism.shape_springs.size(); ++i) {
     model::ShapeSpring& own = mechanism.shape_springs[i];
     const double unit = unit_of_value(own.shape.kind, scales);
-    for (model::SeriesSpring& inner : own.before)
-      if (const double shift = shifts.joints[spring++]; shift != 0)
-        inner.law = model::moved(inner.law, shift * unit);
-    if (shifts.shapes[i] != 0) own.law = model::moved(own.law, shifts.shapes[i] * unit);
+    for (model::SeriesSpring& inner : own.before) move(shifts.joints[spring++], unit, inner.law);
+    move(shifts.shapes[i], unit, own.law);
   }
 }
 
@@ -87,7 +96,7 @@ void solve_in_softest_units(const Study& study, const ParameterFamily* family, B
 
 Begin begin_study(const model::Mechanism& mechanism, const Study& study,
                   const ParameterFamily* family, StartReport& report) {
-  // Springs that no longer pull let the equilibrium move by as little again.
+  // Springs that no longer pull let the equilibrium move by as little again, and less each time.
   constexpr int rounds = 3;
   Begin begin{mechanism, set_up(mechanism, study, family), {}};
   begin.first = find_start(begin.setup, study, report);
@@ -95,13 +104,14 @@ Begin begin_study(const model::Mechanism& mechanism, const Study& study,
   if (family != nullptr || study.kind != StudyKind::force_deflection) return begin;
   for (int round = 0; round < rounds && report.found; ++round) {
     const Shifts shifts = shifts_of(begin.setup.system, begin.first);
-    if (!shifts.any) break;
+    if (shifts.largest == 0) break;
     Begin moved{begin.mechanism, {}, {}};
     move_springs(shifts, begin.setup.scales, moved.mechanism);
     moved.setup = set_up(moved.mechanism, study, family);
     StartReport again;
     moved.first = find_start(moved.setup, study, again);
-    if (!again.found) break;
+    if (!again.found || !(shifts_of(moved.setup.system, moved.first).largest < shifts.largest))
+      break;
     begin = std::move(moved);
     report = std::move(again);
   }

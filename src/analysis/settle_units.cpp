@@ -160,6 +160,13 @@ void settle_units(const model::Mechanism& mechanism, const Study& study,
   if (softest < continuation::poor * before.force && settles_in(softest)) return;
   if (settles_in(stiffest)) return;
   change_units(given, before, first, setup);
+  // A start that is singular in any unit may be a critical point under the loads that act there: these are its size.
+  Setup begun = setup;
+  begin_at(study, first, begun);
+  const PathProblem problem(begun.system, begun.rule);
+  const double force = largest_force(problem, first, start_point(problem, begun, first));
+  if (force > 0)
+    change_units(given, {setup.scales.force * power_of_two_near(force), {}}, first, setup);
 }
 
 void enlarge_lambda_unit(const model::Mechanism& mechanism, const Study& study,

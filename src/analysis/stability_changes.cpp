@@ -9,6 +9,7 @@
 #include "branch_rows.hpp"
 #include "grow_diagram.hpp"
 #include "springfold/continuation/newton.hpp"
+#include "springfold/core/hermite.hpp"
 #include "springfold/core/rounding.hpp"
 
 namespace springfold::analysis {
@@ -110,18 +111,11 @@ class Watcher {
     const double length = std::sqrt(continuation::metric_product(weights_, chord, chord));
     if (!(length > 0)) return std::nullopt;
     const Direction border{chord.dx / length, chord.dlambda / length};
-    const auto along = [&](double from, double to, double by_a, double by_b) {
-      by_a *= length;
-      by_b *= length;
-      return Direction{
-          from * a.x + to * b.x + by_a * a.tangent.dx + by_b * b.tangent.dx,
-          from * a.lambda + to * b.lambda + by_a * a.tangent.dlambda + by_b * b.tangent.dlambda};
-    };
-    const double p = part, q = 1 - part;
-    const Direction place = along(q * q * (1 + 2 * p), p * p * (1 + 2 * q), p * q * q, -p * p * q);
-    const Direction way = along(-6 * p * q / length, 6 * p * q / length, q * (q - 2 * p) / length,
-                                p * (p - 2 * q) / length);
-    const auto solved = continuation::correct(t_.problem, weights_, place.dx, place.dlambda,
+    const HermiteCubic<Vector> x{a.x, a.tangent.dx, b.x, b.tangent.dx, length};
+    const HermiteCubic<double> lambda{a.lambda, a.tangent.dlambda, b.lambda, b.tangent.dlambda,
+                                      length};
+    const Direction way{x.slope_at(part), lambda.slope_at(part)};
+    const auto solved = continuation::correct(t_.problem, weights_, x.at(part), lambda.at(part),
                                               a.piece, border, options);
     continuation::Linearisation at;
     if (!continuation::converged(solved) ||

@@ -117,8 +117,7 @@ Stop stop_of(const Curve& curve, bool follows_branches) {
       curve.stop == StopReason::bad_start;  // by a limit: what it says is all there is to say
   if (!curve.stop_detail.empty())
     stop.reason = is_refused ? curve.stop_detail : stop.reason + ": " + curve.stop_detail;
-  stop.complete = curve.stop == StopReason::event || curve.stop == StopReason::closed ||
-                  curve.stop == StopReason::turns_upon_itself;
+  stop.complete = ended_as_asked(curve.stop);
   const bool parts = !curve.hits.empty() && curve.hits.back().leaving.size() > 1;
   if (!stop.complete && parts && !follows_branches)
     stop.reason += "; each is a branch: branches.depth = 1 follows them";

@@ -1,4 +1,7 @@
 // Spring laws in other units and at other coordinates.
+#include <algorithm>
+#include <cmath>
+
 #include "springfold/model/spring_law.hpp"
 
 namespace springfold::model {
@@ -89,5 +92,25 @@ SpringLaw scaled(const SpringLaw& law, double coordinate, double torque) {
 }
 
 SpringLaw moved(const SpringLaw& law, double by) { return std::visit(Moved{by}, law); }
+
+SpringLaw with_breakpoint(const SpringLaw& law, double near, double to) {
+  const CompiledSpring compiled = compile(law);
+  const auto& places = compiled.breakpoints;
+  const auto nearest =
+      std::ranges::min_element(places, {}, [near](double place) { return std::abs(place - near); });
+  if (nearest == places.end()) return law;
+  const auto i = static_cast<std::size_t>(nearest - places.begin());
+  const auto* const linear = std::get_if<PiecewiseLinearSpring>(&law);
+  if (linear == nullptr || compiled.is_free(i) || compiled.is_free(i + 1))
+    return moved(law, to - *nearest);
+  PiecewiseLinearSpring other = *linear;
+  other.breakpoints[i] = to;
+  const bool is_ordered = (i == 0 || other.breakpoints[i - 1] < to) &&
+                          (i + 1 == places.size() || to < other.breakpoints[i + 1]);
+  if (!is_ordered) return law;
+  const CompiledSpring there = compile(other);
+  other.preload += compiled.torque(compiled.segment_at(to), to) - there.torque(i, to);
+  return other;
+}
 
 }  // namespace springfold::model

@@ -78,6 +78,9 @@ enum class StopReason {
 
 std::string_view to_string(StopReason reason);
 
+/// Did the curve end where it was to end, or where nothing lies ahead? `observer` and `joined` are the caller's matter.
+bool ended_as_asked(StopReason reason);
+
 /// Why a step was refused or cut, for the step log.
 struct StepNote {
   double s = 0;          ///< where the step began

@@ -83,18 +83,18 @@ std::vector<Index> tangential_surfaces(const Walker& walker, const CurvePoint& j
     return {};
   const Vector root = metric_roots(walker.weights);
   std::erase_if(list, [&](Index j) {
-    const double g = at_start.g[j], moves = sure_rate(walker, at_start, j, way.start);
-    if (std::abs(g) <= walker.options.simultaneous && moves == 0)
+    const double g = at_start.g[j];
+    const auto moves = [&] { return sure_rate(walker, at_start, j, way.start); };
+    if (std::abs(g) <= walker.options.simultaneous && moves() == 0)
       return true;  // it rests: both sides are looked at
     const double leaves =
         std::abs(switch_rate(at_junction.dg_dx, at_junction.dg_dlambda, j, way.point.tangent));
     Vector gradient(root.size());
     gradient << at_junction.dg_dx.row(j).transpose(), at_junction.dg_dlambda[j];
     const double unknown = between_samples * way.accuracy * gradient.cwiseQuotient(root).norm();
-    const bool grows = g != 0 && moves * gap / g > more_than_linear;
-    const bool is_tangential =
-        leaves * gap <= small_share * std::abs(g) || (leaves <= unknown && grows);
-    return !is_tangential;
+    if (leaves * gap <= small_share * std::abs(g)) return false;
+    const bool grows = leaves <= unknown && g != 0 && moves() * gap / g > more_than_linear;
+    return !grows;
   });
   return list;
 }

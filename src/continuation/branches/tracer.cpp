@@ -1,7 +1,6 @@
 #include "continuation/branches/tracer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "continuation/branches/close_modes.hpp"
@@ -157,9 +156,8 @@ void Tracer::follow(const Task& task) {
 void Tracer::note_early_end() {
   const Curve& curve = diagram_.branches[static_cast<std::size_t>(current_)].curve;
   const bool at_junction = !curve.hits.empty() && curve.hits.back().junction >= 0;
-  constexpr std::array as_asked{StopReason::event, StopReason::closed, StopReason::joined,
-                                StopReason::observer, StopReason::turns_upon_itself};
-  if (std::ranges::find(as_asked, curve.stop) != as_asked.end() ||
+  const bool by_caller = curve.stop == StopReason::joined || curve.stop == StopReason::observer;
+  if (ended_as_asked(curve.stop) || by_caller ||
       (curve.stop == StopReason::several_ways && (at_junction || !options_.through_kinks)))
     return;
   std::string text = "a branch stopped early: " + std::string(to_string(curve.stop));

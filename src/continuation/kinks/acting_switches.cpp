@@ -18,14 +18,11 @@ constexpr double between_places = 100;
 /// not known.
 double error_beside(const Walker& walker, const KinkSearch& kink, const Workspace::Switches& here,
                     Index j) {
-  CurvePoint behind = kink.point;
-  auto& side = behind.piece[static_cast<std::size_t>(kink.met)];
-  side = side > 0 ? -1 : 1;
   const auto error_at = [&](const CurvePoint& p) {
     const double error = error_of_value(walker, p, here.dg_dx, here.dg_dlambda, j);
     return std::isfinite(error) ? error : 0;
   };
-  return std::max(error_at(kink.point), error_at(behind));
+  return std::max(error_at(kink.point), error_at(behind(kink.point, {&kink.met, 1})));
 }
 
 /// Is the threshold of a switch that is nearly zero at a kink elsewhere on the curve? A stiff spring that has just come
@@ -55,9 +52,7 @@ bool is_zero_elsewhere(const Walker& walker, const CurvePoint& from, const KinkS
 
 std::vector<Index> acting_at(const Walker& walker, const CurvePoint& from, const KinkSearch& kink,
                              const std::vector<Index>& left) {
-  std::vector<Index> active = active_switches(walker, kink.point.x, kink.point.lambda);
-  if (!contains(active, kink.met))
-    active.insert(std::ranges::lower_bound(active, kink.met), kink.met);
+  std::vector<Index> active = active_or_met(walker, kink);
   Workspace::Switches before, here;
   if (active.size() < 2 || !read_switches(walker, from, before) ||
       !read_switches(walker, kink.point, here))

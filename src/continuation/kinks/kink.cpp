@@ -196,6 +196,13 @@ std::vector<Index> active_switches(const Walker& walker, const Vector& x, double
   return active;
 }
 
+std::vector<Index> active_or_met(const Walker& walker, const KinkSearch& kink) {
+  std::vector<Index> active = active_switches(walker, kink.point.x, kink.point.lambda);
+  if (!contains(active, kink.met))
+    active.insert(std::ranges::lower_bound(active, kink.met), kink.met);
+  return active;
+}
+
 Rays rays_around(const Walker& walker, const CurvePoint& at, const std::vector<Index>& active,
                  double full_rank, const Direction* along, bool polished,
                  const std::vector<Piece>* among) {

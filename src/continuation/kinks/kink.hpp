@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,15 @@ inline bool contains(const std::vector<Index>& switches, Index j) {
 /// Are two pieces on the same sides of all surfaces but these?
 bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where);
 
+/// The point as one of the piece on the other sides of these surfaces.
+inline CurvePoint behind(CurvePoint point, std::span<const Index> crossed) {
+  for (const Index j : crossed) {
+    auto& side = point.piece[static_cast<std::size_t>(j)];
+    side = side > 0 ? -1 : 1;
+  }
+  return point;
+}
+
 /// Switches that are zero at a point, within options.simultaneous.
 std::vector<Index> active_switches(const Walker& walker, const Vector& x, double lambda);
 
@@ -71,6 +81,9 @@ struct KinkSearch {
   Index suspect = -1;            ///< the switch that asks for a shorter step
   std::vector<Index> touched{};  ///< switches that touch zero on this step without crossing it
 };
+
+/// Switches that are zero at the point of a kink, in order, with the one that is met.
+std::vector<Index> active_or_met(const Walker& walker, const KinkSearch& kink);
 
 /// Each switching function is judged by its values and slopes at both ends and by its value
 /// half-way. Where these leave room for more than one zero, or for none, all its zeros on the step

@@ -139,10 +139,7 @@ int sense_of_piece(const Walker& walker, const CurvePoint& p) {
 bool may_turn_upon_itself(const Walker& walker, const CurvePoint& arrived,
                           const std::vector<Index>& resting) {
   if (resting.size() != 1 || walker.problem.structured()) return false;
-  CurvePoint other = arrived;
-  auto& side = other.piece[static_cast<std::size_t>(resting.front())];
-  side = side > 0 ? -1 : 1;
-  return sense_of_piece(walker, arrived) * sense_of_piece(walker, other) < 0;
+  return sense_of_piece(walker, arrived) * sense_of_piece(walker, behind(arrived, resting)) < 0;
 }
 
 /// Why the trace ends at this kink, if it does; labels the hit.

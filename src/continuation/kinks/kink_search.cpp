@@ -255,9 +255,7 @@ void settle_on_branch_point(const Walker& walker, const CurvePoint& from, KinkSe
   if (!place) return;
   Vector g;
   if (!walker.problem.switches(place->x, place->lambda, g)) return;
-  std::vector<Index> met = active_switches(walker, point.x, point.lambda);
-  met.push_back(kink.met);
-  for (const Index j : met)
+  for (const Index j : active_or_met(walker, kink))
     if (std::abs(g[j]) > walker.options.simultaneous) return;
   if (!(length_of(walker, difference(*place, point)) <= told_apart)) return;
   point.x = place->x;

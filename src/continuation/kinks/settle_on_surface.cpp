@@ -119,17 +119,12 @@ Order order_at(const Walker& walker, const CurvePoint& place, Index first,
 /// and on that behind the surfaces `crossed`, as good as here when it meets that of j?
 bool is_as_good_as_there(const Walker& walker, const CurvePoint& place,
                          const std::vector<Index>& crossed, Index j) {
-  CurvePoint behind = place;
-  for (const Index i : crossed) {
-    auto& side = behind.piece[static_cast<std::size_t>(i)];
-    side = -side;
-  }
   const double most = promised_place * std::max(1.0, size_of(place));
   const auto is_here = [&](const CurvePoint& near) {
     const auto there = point_on_surface(walker, near, j);
     return there && length_of(walker, difference(*there, place)) <= most;
   };
-  return is_here(place) && is_here(behind);
+  return is_here(place) && is_here(behind(place, crossed));
 }
 
 }  // namespace

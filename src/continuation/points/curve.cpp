@@ -38,4 +38,9 @@ std::string_view to_string(StopReason reason) {
   return "unknown";
 }
 
+bool ended_as_asked(StopReason reason) {
+  return reason == StopReason::event || reason == StopReason::closed ||
+         reason == StopReason::turns_upon_itself;
+}
+
 }  // namespace springfold::continuation

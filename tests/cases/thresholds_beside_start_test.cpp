@@ -1,0 +1,79 @@
+// A bar of length 1 on a torsion spring under a load along it, and a threshold of the spring nearer to where the bar
+// stands than can be told from it: it stands upon it, at the same place, and buckles at the stiffness of either side.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "case_runs.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::EventKind;
+
+std::string bar(const std::string& law) {
+  return R"toml(
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [0, 1]
+[[chain]]
+name = "bar"
+elements = [
+  { joint = "revolute", axis = "z", name = "h", role = "preloaded", spring = )toml" +
+         law + R"toml( },
+  { rigid = [0, 1] },
+]
+[[study]]
+name = "press"
+control = "load"
+direction = [0, -1]
+until = { lambda = [-0.2, 5], bar.h = [-2.5, 2.5] }
+branches = { depth = 1 }
+)toml";
+}
+
+struct Beside {
+  std::string law{};
+  std::vector<double> loads{};  ///< rising
+};
+
+TEST(ThresholdsBesideTheStart, MoveNeitherItNorTheLoadsAtWhichBranchesLeave) {
+  const std::vector<Beside> all{
+      {"{ law = \"piecewise_linear\", breakpoints = [2e-12], stiffnesses = [2, 0.5] }", {0.5, 2}},
+      {"{ law = \"piecewise_linear\", breakpoints = [-3e-11], stiffnesses = [2, 0.5] }", {0.5, 2}},
+      {"{ law = \"piecewise_linear\", breakpoints = [-0.3, 4e-13], stiffnesses = [3, 2, 4] }",
+       {2, 4}},
+      {"{ law = \"stops\", stiffness = 0.4, stop_stiffness = 0.2, low = -1e-11, high = 0.3 }",
+       {0.4, 0.6}}};
+  for (const auto& [law, loads] : all) {
+    SCOPED_TRACE(law);
+    const auto result = run(bar(law)).of("press");
+    EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+    const std::size_t start = result.branches.at(0).start_row;
+    EXPECT_EQ(value(result, start, "tip.x"), 0);
+    std::vector<double> found = lambdas(result, EventKind::branching_kink);
+    std::ranges::sort(found);
+    ASSERT_EQ(found.size(), loads.size());
+    for (std::size_t i = 0; i < loads.size(); ++i) EXPECT_NEAR(found[i], loads[i], 1e-10);
+    EXPECT_EQ(result.branches.size(), 3u);
+  }
+}
+
+/// The torque is 0.7 there, and pushes the tip across: the load that holds it keeps its place, too.
+TEST(ThresholdsBesideTheStart, LeaveThePreloadAsItIs) {
+  const std::string held = bar(
+      R"({ law = "piecewise_linear", breakpoints = [1e-12], stiffnesses = [2, 0.5], free = -0.35 })");
+  std::string text = held;
+  text.insert(text.find("until"), "load = [-0.7, 0]\n");
+  const auto result = run(text).of("press");
+  EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+  EXPECT_NEAR(value(result, result.branches.at(0).start_row, "tip.x"), 0, 1e-15);
+  EXPECT_NEAR(value(result, result.branches.at(0).start_row, "energy"), 0.5 * 2 * 0.35 * 0.35,
+              1e-11);
+}
+
+}  // namespace
+}  // namespace springfold::io
