@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "branch_rows.hpp"
+#include "closure_rank.hpp"
 #include "grow_diagram.hpp"
 #include "held_twice.hpp"
 #include "infinite_force.hpp"
@@ -166,6 +167,15 @@ void refuse_start(const BasePath& path, StartReport& report) {
 
 namespace {
 
+/// A branch point at which one chain is stretched is one like others; where the closures of all chains lose rank
+/// together what branches there is not known.
+EventKind kind_of_path(const PathProblem& problem, const Event& event, const Hit& hit) {
+  const bool branches = event.kind == EventKind::kinematic_singularity &&
+                        hit.kind == continuation::HitKind::branch_point &&
+                        !kinematic_singularity(problem, hit.point);
+  return branches ? EventKind::branch_point : event.kind;
+}
+
 /// The two ways out of the start, that of growing lambda first. Empty: `path` says why there are none.
 std::vector<continuation::Ray> ways_from_start(const Member& member, const Study& study,
                                                BasePath& path) {
@@ -204,12 +214,12 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   const CurvePoint start = way != nullptr ? way->from : member.start();
   const continuation::TraceOptions options = options_of(study.trace);
   const std::vector<continuation::Ray> rays =
-      way != nullptr ? std::vector{way->ray} : ways_from_start(member, study, path);
-  if (rays.empty()) return path;
+      way == nullptr ? ways_from_start(member, study, path) : std::vector<continuation::Ray>{};
+  if (way == nullptr && rays.empty()) return path;
   const auto events = events_of(study, evaluator, member.quantities());
   int points = 0;
   LambdaCrawl crawl(problem, largest_unit, range_of_lambda(study, member.setup));
-  crawl.begin(rays[0].tangent);
+  crawl.begin(way != nullptr ? start.tangent : rays[0].tangent);
   int left = points_behind;
   Crawl seen = Crawl::none;
   InfiniteForceWatch forces(problem, events);
@@ -224,17 +234,19 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
     return true;
   };
   const Following with{problem, study, evaluator, member.quantities()};
-  const auto follow = [&](const continuation::Ray& ray) {
-    Curve curve = trace_within_limits(with, start, ray, events, options, observe, at_hit);
+  const auto follow = [&](const continuation::Ray* ray) {
+    Curve curve = ray != nullptr
+                      ? trace_within_limits(with, start, *ray, events, options, observe, at_hit)
+                      : curve_within_limits(with, *way, events, options, observe);
     if (seen == Crawl::without_bound) end_without_bound(curve);
     forces.end(curve, options);
     return curve;
   };
-  Curve forward = follow(rays[0]);
+  Curve forward = follow(way != nullptr ? nullptr : &rays[0]);
   Curve backward =
       forward_only || forward.stop == continuation::StopReason::closed || crawl.factor() > 1
           ? nothing_behind(forward)
-          : follow(rays[1]);
+          : follow(&rays[1]);
   path.lambda_unit = crawl.factor();
   if (path.lambda_unit > 1) return path;
   forward = with_hits_merged(std::move(forward), evaluator);
@@ -271,7 +283,7 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
     // What is not looked for from the start on.
     if (hit == nullptr && s == 0 && event.kind == EventKind::unresolved) hit = hit_at(forward, s);
     if (hit != nullptr && event.kind != EventKind::end_of_range && !is_end_at_kink(event))
-      path.points.push_back({event.label, event.kind, event.row, *hit});
+      path.points.push_back({event.label, kind_of_path(problem, event, *hit), event.row, *hit});
   }
   path.forward = forward;
   return path;

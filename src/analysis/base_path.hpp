@@ -11,7 +11,8 @@ namespace springfold::analysis {
 
 struct SpecialPoint {
   std::string label{};  ///< as in the study's table: "LP1"
-  EventKind kind = EventKind::limit_point;
+  EventKind kind = EventKind::
+      limit_point;          ///< of KS that of the branch point that it is, if one chain loses rank
   std::size_t row = 0;      ///< in BasePath::branch
   continuation::Hit hit{};  ///< walked away from the start
 };

@@ -80,41 +80,47 @@ class LoadedNode {
   /// Special points before a kink are told as they are met, kinks and what is unresolved stand in the curve alone:
   /// there the number of unstable modes ends it.
   Curve follow(const CurvePoint& from, const Ray& ray) const {
-    const std::vector<continuation::Event> events{{"limit",
-                                                   [](const CurvePoint& p) { return p.lambda - 1; },
-                                                   continuation::EventAction::stop}};
-    const auto is_stable = [this](const CurvePoint& p) {
-      return !p.negative || *p.negative <= problem_.closures();
-    };
-    return trace(problem_, from.x, from.lambda, ray, events, options_, is_stable,
-                 [this](const Hit& hit) { return keeps_stability(hit); });
+    return trace(
+        problem_, from.x, from.lambda, ray, events_, options_,
+        [this](const CurvePoint& p) { return is_stable(p); },
+        [this](const Hit& hit) { return keeps_stability(hit); });
   }
 
-  /// The one way on along which the load still grows behind a branch point, if that is stable: nothing is lost where a
-  /// load straightens what was bent.
-  std::optional<Ray> taken_over_at(const Hit& hit) const {
+  /// The curve that takes over at a loss of stability, where none is lost.
+  std::optional<Curve> taken_over(const Hit& hit) const {
     const bool branches = hit.kind == HitKind::branch_point || hit.kind == HitKind::branching_kink;
     if (!branches) return std::nullopt;
-    const auto ways = ways_from(problem_, hit.point, options_);
-    if (!ways) return std::nullopt;
-    std::optional<Ray> taken;
-    for (const WayOn& way : *ways) {
-      const CurvePoint& beside = *way.ray.start;
-      if (!(beside.lambda > hit.point.lambda)) continue;
-      const auto modes = unstable_modes(problem_, beside);
-      if (taken || !modes || *modes > 0) return std::nullopt;
-      taken = way.ray;
-    }
-    return taken;
+    const LoadedState state{
+        .load = [](const CurvePoint& p) { return p.lambda; },
+        .unstable = [this](const CurvePoint& p) { return unstable_modes(problem_, p); }};
+    const auto way = taken_over_at(problem_, hit.point, state, options_);
+    if (!way) return std::nullopt;
+    continuation::DiagramOptions within{.trace = options_};
+    within.ends_at = [](const CurvePoint& p) { return p.lambda < 1 ? "" : "limit"; };
+    within.outside = [](const CurvePoint& p) { return p.lambda > 1; };
+    Curve curve = curve_along(problem_, *way, events_, std::move(within),
+                              [this](const CurvePoint& p) { return p.lambda < 1 && is_stable(p); });
+    end_at_limit(curve);
+    return curve;
   }
 
  private:
+  /// A limit nearer to the begin of a curve than its first step is passed by that.
+  static void end_at_limit(Curve& curve) {
+    if (curve.points.empty() || curve.points.back().lambda < 1) return;
+    std::erase_if(curve.hits, [](const Hit& hit) { return hit.point.lambda > 1; });
+    curve.stop = continuation::StopReason::event;
+  }
+
+  bool is_stable(const CurvePoint& p) const {
+    return !p.negative || *p.negative <= problem_.closures();
+  }
+
   const PathProblem& problem_;
   const continuation::TraceOptions& options_;
+  std::vector<continuation::Event> events_{
+      {"limit", [](const CurvePoint& p) { return p.lambda - 1; }, continuation::EventAction::stop}};
 };
-
-/// One node is handed over from branch to branch no more often: each time at a greater load.
-constexpr int most_handovers = 50;
 
 }  // namespace
 
@@ -141,9 +147,9 @@ CriticalLoad critical_load(const CommandSetup& setup, const CommandedState& stat
   };
   auto loss = first_loss();
   for (int i = 0; i < most_handovers && loss != curve.hits.end(); ++i, loss = first_loss()) {
-    const auto onward = node.taken_over_at(*loss);
+    auto onward = node.taken_over(*loss);
     if (!onward) break;
-    curve = node.follow(CurvePoint(loss->point), *onward);
+    curve = std::move(*onward);
   }
   if (loss == curve.hits.end()) {
     const bool is_whole = curve.stop == continuation::StopReason::event;

@@ -45,6 +45,7 @@ bool is_unwanted(const Member& member, const CriticalPointSettings& settings, co
       return !only_turns || turns_back(member, path, point, "lambda") ||
              (dead && turns_back(member, path, point, "force"));
     case EventKind::stability_change:
+    case EventKind::kinematic_singularity:
     case EventKind::switching: {
       const bool of_dead_load = point.kind == EventKind::stability_change;
       const QuantityDefinition* index = member.quantity(dead ? "index_force" : "index");

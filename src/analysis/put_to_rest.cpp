@@ -33,6 +33,19 @@ bool is_upon(double g, double breakpoint) {
   return std::abs(g) <= rounding * std::max(1.0, std::abs(breakpoint));
 }
 
+/// What is pressed by a force that counts stands apart from its threshold, however near that is beside a stiff stop. In
+/// the softer segment a threshold that moves changes no force here.
+bool may_be_moved(const model::CompiledSpring& law, double breakpoint, double g) {
+  const auto nearest = std::ranges::min_element(
+      law.breakpoints, {}, [breakpoint](double place) { return std::abs(place - breakpoint); });
+  const auto i = static_cast<std::size_t>(nearest - law.breakpoints.begin());
+  const double below = std::abs(law.stiffness(i, breakpoint)),
+               above = std::abs(law.stiffness(i + 1, breakpoint));
+  const bool is_softer_side = g < 0 ? below <= above : above <= below;
+  constexpr double counts = continuation::TraceOptions{}.simultaneous;
+  return is_softer_side || std::abs((above - below) * g) <= counts;
+}
+
 Shifts shifts_of(const statics::System& system, const statics::FirstEquilibrium& first) {
   Shifts shifts{std::vector<Shift>(system.springs.size()), std::vector<Shift>(system.shapes.size()),
                 0};
@@ -41,7 +54,11 @@ Shifts shifts_of(const statics::System& system, const statics::FirstEquilibrium&
     const statics::Switch& at = system.switches[j];
     const double g = switch_value(system, j, first.z, first.inputs.rho);
     if (!(std::abs(g) <= near) || is_upon(g, at.breakpoint)) continue;
-    (at.of_shape() ? shifts.shapes : shifts.joints)[at.spring] = {at.breakpoint, g};
+    const model::CompiledSpring& law =
+        at.of_shape() ? system.shapes[at.spring].law : system.springs[at.spring].law;
+    if (!may_be_moved(law, at.breakpoint, g)) continue;
+    Shift& shift = (at.of_shape() ? shifts.shapes : shifts.joints)[at.spring];
+    if (shift.by == 0 || std::abs(g) < std::abs(shift.by)) shift = {at.breakpoint, g};
     shifts.largest = std::max(shifts.largest, std::abs(g));
   }
   return shifts;
@@ -85,6 +102,11 @@ void solve_in_softest_units(const Study& study, const ParameterFamily* family, B
   };
   change_force_unit(soft.setup.system, softest / before, soft.first);
   if (report.found && solves()) return;
+  if (report.found &&
+      correct_by_rows(soft.setup.system, start_problem(soft.setup, study), soft.first)) {
+    begin = std::move(soft);
+    return;
+  }
   StartReport again;
   soft.first = find_start(soft.setup, study, again);
   if (!again.found || !solves()) return;
@@ -110,7 +132,9 @@ Begin begin_study(const model::Mechanism& mechanism, const Study& study,
     moved.setup = set_up(moved.mechanism, study, family);
     StartReport again;
     moved.first = find_start(moved.setup, study, again);
-    if (!again.found || !(shifts_of(moved.setup.system, moved.first).largest < shifts.largest))
+    constexpr double much_less = 0.5;
+    if (!again.found ||
+        !(shifts_of(moved.setup.system, moved.first).largest <= much_less * shifts.largest))
       break;
     begin = std::move(moved);
     report = std::move(again);

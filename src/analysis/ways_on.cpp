@@ -1,20 +1,29 @@
 #include "ways_on.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
-#include "springfold/continuation/diagram.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "start.hpp"
 
 namespace springfold::analysis {
 namespace {
 
+using continuation::Curve;
 using continuation::CurvePoint;
 using continuation::Direction;
 
+double cosine(const Vector& metric, const Direction& a, const Direction& b) {
+  const auto product = [&](const Direction& x, const Direction& y) {
+    return continuation::metric_product(metric, x, y);
+  };
+  const double sizes = std::sqrt(product(a, a) * product(b, b));
+  return sizes > 0 ? product(a, b) / sizes : 0;
+}
+
 /// Between the start of a curve and the next point or special point.
-std::optional<CurvePoint> halfway_to_next(const PathProblem& problem,
-                                          const continuation::Curve& curve) {
+std::optional<CurvePoint> halfway_to_next(const PathProblem& problem, const Curve& curve) {
   if (curve.points.size() < 2) return std::nullopt;
   const CurvePoint& start = curve.points.front();
   const CurvePoint* next = &curve.points[1];
@@ -24,23 +33,17 @@ std::optional<CurvePoint> halfway_to_next(const PathProblem& problem,
   const auto found =
       continuation::correct(problem, problem.metric(), start.x + 0.5 * chord.dx,
                             start.lambda + 0.5 * chord.dlambda, next->piece, chord, {});
-  continuation::Linearisation at;
-  if (!continuation::converged(found) ||
-      !continuation::linearise_densely(problem, found.x, found.lambda, next->piece, at))
-    return std::nullopt;
-  const auto tangent = continuation::tangent_at(at, problem.metric(), chord);
-  if (!tangent) return std::nullopt;
+  if (!continuation::converged(found)) return std::nullopt;
   CurvePoint point{.s = 0.5 * next->s,
                    .x = found.x,
                    .lambda = found.lambda,
-                   .tangent = *tangent,
+                   .tangent = chord,
                    .piece = next->piece};
   count_negative(problem, point);
   return point;
 }
 
-}  // namespace
-
+/// All ways out of a point at which branches meet, that of arrival among them. Nothing: not all are known.
 std::optional<std::vector<WayOn>> ways_from(const PathProblem& problem, const CurvePoint& at,
                                             const continuation::TraceOptions& options) {
   using continuation::DoubtKind;
@@ -57,10 +60,70 @@ std::optional<std::vector<WayOn>> ways_from(const PathProblem& problem, const Cu
   for (const continuation::Branch& branch : diagram.branches) {
     auto beside = halfway_to_next(problem, branch.curve);
     if (!beside) return std::nullopt;
-    const CurvePoint& from = branch.curve.points.front();
-    ways.push_back({from, {.piece = from.piece, .tangent = from.tangent, .start = beside}});
+    ways.push_back({branch.curve.points.front(), std::move(*beside)});
   }
   return ways;
+}
+
+/// Where springs rest no one piece decides on stability.
+bool rests(const PathProblem& problem, const CurvePoint& point,
+           const continuation::TraceOptions& options) {
+  Vector g;
+  return problem.switch_count() > 0 && (!problem.switches(point.x, point.lambda, g) ||
+                                        (g.array().abs() <= options.simultaneous).any());
+}
+
+}  // namespace
+
+std::optional<WayOn> taken_over_at(const PathProblem& problem, const CurvePoint& at,
+                                   const LoadedState& state,
+                                   const continuation::TraceOptions& options) {
+  auto ways = ways_from(problem, at, options);
+  if (!ways || ways->empty()) return std::nullopt;
+  const Vector metric = problem.metric();
+  const WayOn& back = *std::ranges::min_element(
+      *ways, {}, [&](const WayOn& way) { return cosine(metric, way.from.tangent, at.tangent); });
+  const double load = state.load(at), sense = load - state.load(back.beside);
+  if (!(sense != 0) || state.unstable(back.beside) != Index{0}) return std::nullopt;
+  const auto leads_on = [&](const WayOn& way) {
+    return sense * (state.load(way.beside) - load) > 0;
+  };
+  if (std::ranges::count_if(*ways, leads_on) != 1) return std::nullopt;
+  WayOn& on = *std::ranges::find_if(*ways, leads_on);
+  if (rests(problem, on.beside, options) || state.unstable(on.beside) != Index{0})
+    return std::nullopt;
+  return std::move(on);
+}
+
+Curve curve_along(const PathProblem& problem, const WayOn& way,
+                  const std::vector<continuation::Event>& events,
+                  continuation::DiagramOptions options,
+                  const continuation::StepObserver& observer) {
+  constexpr double one_way = 0.7;  // ways of one point are farther apart
+  const Vector metric = problem.metric();
+  const CurvePoint& from = way.from;
+  // All ways are begun, and this one is followed. A new one begins where s falls.
+  double last = std::numeric_limits<double>::infinity();
+  bool is_own = false;
+  const auto observe = [&](const CurvePoint& p) {
+    if (p.s < last)
+      is_own = cosine(metric, {p.x - from.x, p.lambda - from.lambda}, from.tangent) > one_way;
+    last = p.s;
+    return is_own && (!observer || observer(p));
+  };
+  options.maximum_depth = 0;
+  continuation::Diagram diagram = continuation::trace_diagram(
+      problem, {{from.x, from.lambda, from.piece}}, events, options, observe);
+  const auto own =
+      std::ranges::max_element(diagram.branches, {}, [&](const continuation::Branch& branch) {
+        if (branch.curve.points.empty()) return -1.0;
+        const CurvePoint& begin = branch.curve.points.front();
+        return begin.piece == from.piece ? cosine(metric, begin.tangent, from.tangent) : -1.0;
+      });
+  if (own == diagram.branches.end()) return {};
+  Curve curve = std::move(own->curve);
+  for (continuation::Hit& hit : curve.hits) hit.junction = hit.way_back = hit.way_on = -1;
+  return curve;
 }
 
 }  // namespace springfold::analysis

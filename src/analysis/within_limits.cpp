@@ -85,4 +85,26 @@ Curve trace_within_limits(const Following& with, const CurvePoint& start,
   return curve;
 }
 
+Curve curve_within_limits(const Following& t, const WayOn& way,
+                          const std::vector<continuation::Event>& events,
+                          const continuation::TraceOptions& options,
+                          const continuation::StepObserver& observer) {
+  continuation::DiagramOptions within{.trace = options};
+  within.ends_at = [&t](const CurvePoint& point) {
+    const auto end =
+        ended_at_start(t.study, t.evaluator, t.quantities, point, {point.piece, point.tangent});
+    return end ? end->stop_detail : "";
+  };
+  // Limits nearer to the point than the first step are passed by that.
+  const auto is_within = [&t](const CurvePoint& point) {
+    return !limit_passed(t.study, t.evaluator, t.quantities, point);
+  };
+  within.outside = [&](const CurvePoint& point) { return !is_within(point); };
+  Curve curve = curve_along(
+      t.problem, way, events, std::move(within),
+      [&](const CurvePoint& point) { return is_within(point) && (!observer || observer(point)); });
+  cut_to_range(t.study, t.evaluator, t.quantities, curve);
+  return curve;
+}
+
 }  // namespace springfold::analysis

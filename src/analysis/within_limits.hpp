@@ -4,6 +4,7 @@
 #include "asking.hpp"
 #include "limits.hpp"
 #include "springfold/continuation/trace.hpp"
+#include "ways_on.hpp"
 
 namespace springfold::analysis {
 
@@ -28,5 +29,11 @@ continuation::Curve trace_within_limits(
     const Following& with, const continuation::CurvePoint& start, const continuation::Ray& ray,
     const std::vector<continuation::Event>& events, const continuation::TraceOptions& options,
     const continuation::StepObserver& observer = {}, const continuation::HitObserver& at_hit = {});
+
+/// As trace_within_limits(), along a way on from a special point.
+continuation::Curve curve_within_limits(const Following& t, const WayOn& way,
+                                        const std::vector<continuation::Event>& events,
+                                        const continuation::TraceOptions& options,
+                                        const continuation::StepObserver& observer);
 
 }  // namespace springfold::analysis

@@ -101,7 +101,8 @@ SpringLaw with_breakpoint(const SpringLaw& law, double near, double to) {
   if (nearest == places.end()) return law;
   const auto i = static_cast<std::size_t>(nearest - places.begin());
   const auto* const linear = std::get_if<PiecewiseLinearSpring>(&law);
-  if (linear == nullptr || compiled.is_free(i) || compiled.is_free(i + 1))
+  if (linear == nullptr || compiled.is_free(i) || compiled.is_free(i + 1) ||
+      compiled.torque(i, *nearest) == 0)
     return moved(law, to - *nearest);
   PiecewiseLinearSpring other = *linear;
   other.breakpoints[i] = to;

@@ -197,6 +197,33 @@ bool solves_by_rows(const System& system, const StartProblem& problem,
       .vanishes_by_rows({found.z, found.inputs}, start_tolerance);
 }
 
+bool correct_by_rows(const System& system, const StartProblem& problem, FirstEquilibrium& found) {
+  constexpr int steps = 3;
+  constexpr double hardly = 1e-6;
+  if (system.size > most_dense) return false;
+  Workspace work;
+  StartEquations equations(system, problem, work);
+  StartState state{found.z, found.inputs};
+  Vector r;
+  Matrix J;
+  double moved = 0;
+  for (int i = 0; i < steps; ++i) {
+    if (!equations.residual(state, r) || !equations.jacobian(state, J)) return false;
+    const Vector step = Lu(J).solve(r);
+    moved += equations.way(step);
+    if (!step.allFinite() || moved > hardly) return false;
+    equations.unpack(equations.pack(state) - step, state);
+    if (!equations.vanishes_by_rows(state, start_tolerance)) continue;
+    equations.residual(state, r);
+    found.residual = r.lpNorm<Eigen::Infinity>();
+    found.z = state.z;
+    found.inputs = state.inputs;
+    complete(system, problem, found);
+    return true;
+  }
+  return false;
+}
+
 FirstEquilibrium first_equilibrium(const System& system, const StartProblem& problem) {
   Workspace work;
   return first_equilibrium(system, problem, work);

@@ -73,6 +73,42 @@ TEST(StraighteningLoads, HaveNoThresholdBelowWhichTheyStraighten) {
   EXPECT_EQ(result.threshold->value, 2);
 }
 
+/// Rows of marks and extrema lie at the straight state, or so near that the load between is rounding.
+TEST(StraighteningLoads, LoseNothingWhateverElseIsAskedForThere) {
+  for (const std::string rest :
+       {"mark = { tip.x = [0] }\n", "mark = { bar.foot = [0] }\n", "extrema = [\"tip.y\"]\n",
+        "extrema = [\"energy\"]\n", "mark = { bar.foot = [1e-8] }\n",
+        "mark = { bar.foot = [1e-9] }\n", "mark = { bar.foot = [-1e-12] }\n"}) {
+    SCOPED_TRACE(rest);
+    const StudyResult result =
+        run(post(rigid) + study("critical_load",
+                                rest + "critical_load = { of = \"loss_of_stability\", parameter = "
+                                       "\"W\", range = [1.2, 2], values = 5 }"))
+            .of("critical_load");
+    EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+    EXPECT_TRUE(result.branches.empty());
+  }
+}
+
+/// The path ends just behind the branch point, before the load at which the straight one loses its stability.
+TEST(StraighteningLoads, EndAtLimitsJustBehindTheBranchPoint) {
+  for (const std::string gap : {"1e-8", "1e-6", "1e-4", "2e-4", "1e-3"}) {
+    SCOPED_TRACE(gap);
+    // N (1 - N / 100) = 1
+    std::string text =
+        post(tears) +
+        study("critical_load",
+              "critical_load = { of = \"loss_of_stability\", parameter = \"k\", range "
+              "= [0.999, 1], values = 2 }");
+    const std::string whole = "lambda = [-1, 5]";
+    text.replace(text.find(whole), whole.size(),
+                 "lambda = [-1, \"W - 50*(1 - sqrt(1 - 0.04*k)) + " + gap + "\"]");
+    const StudyResult result = run(text).of("critical_load");
+    EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+    EXPECT_TRUE(result.branches.empty());
+  }
+}
+
 TEST(StraighteningLoads, LoseStabilityWhereTheStraightOneLosesIt) {
   const StudyResult result =
       run(post(tears) + study("critical_load",
@@ -95,6 +131,71 @@ TEST(StraighteningLoads, AreDesignedForTheLossOfTheStraightOne) {
   ASSERT_TRUE(result.design);
   EXPECT_TRUE(result.design->verified);
   EXPECT_NEAR(result.design->parameters.at(0).after, 0.015, 1e-9);
+}
+
+/// Two links of length 1 on springs of stiffness 1, bent by a weight W; a load lifts the tip by lambda and presses the
+/// joint between them down by 2 lambda. Upright its first link leans under W - lambda + 2 lambda, its second under
+/// W - lambda: it stands while (2 - W - lambda) (1 - W + lambda) > 1, which is so from lambda_1 on up to lambda_2.
+/// There the chain is stretched.
+std::string two_links(const std::string& foot) {
+  return R"toml(
+[parameters]
+W = 0.4
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [1.68, 1.03]
+[[chain]]
+name = "c"
+elements = [
+  { joint = "revolute", axis = "z", name = "j0", role = "preloaded", initial = 0.4, spring = )toml" +
+         foot + R"toml( },
+  { rigid = [1, 0] },
+  { point = "mid" },
+  { joint = "revolute", axis = "z", name = "j1", role = "preloaded", initial = 0.3, spring = { law = "linear", stiffness = 1 } },
+  { rigid = [1, 0] },
+]
+[[load]]
+on = "tip"
+force = ["-W", 0]
+[[study]]
+name = "first"
+kind = "critical_load"
+body = "tip"
+control = "load"
+loads = [{ on = "tip", force = [1, 0], scale = "lambda" }, { on = "c.mid", force = [-2, 0], scale = "lambda" }]
+until = { lambda = [-0.5, 3], "c.j0" = [-3, 3], "c.j1" = [-3, 3] }
+critical_load = { of = "loss_of_stability", parameter = "W", range = [0.39, 0.42], values = 4 }
+)toml";
+}
+
+/// @param side  +1: lambda_2, -1: lambda_1
+double load_of_two_links(double W, double side) {
+  const double b = 1 - (2 - W) * (1 - W);
+  return 0.5 * (1 + side * std::sqrt(1 - 4 * b));
+}
+
+void expect_two_links(const std::string& foot, double side) {
+  const StudyResult result = run(two_links(foot)).of("first");
+  EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+  ASSERT_EQ(result.branches.size(), 1u);
+  const auto& samples = result.branches[0].samples;
+  EXPECT_NEAR(samples.front().values.back(), 0.39, 1e-12);
+  EXPECT_NEAR(samples.back().values.back(), 0.42, 1e-12);
+  for (const auto& sample : samples)
+    EXPECT_NEAR(sample.values[column(result, "lambda")],
+                load_of_two_links(sample.values.back(), side), 1e-9);
+}
+
+TEST(StraighteningLoads, OfStretchedChainsAreFollowedBeyondTheStraightState) {
+  expect_two_links("{ law = \"linear\", stiffness = 1 }", 1);
+}
+
+/// A spring that is stiffer on one side makes the branch point a crossing: the path goes on unstable.
+TEST(StraighteningLoads, LoseStabilityWhereTheStretchedChainIsACrossing) {
+  expect_two_links(
+      "{ law = \"polynomial\", coefficients = [0, 1, 0.3], falling = true, range = [-1.5, 3] }",
+      -1);
 }
 
 TEST(StraighteningLoads, AreFollowedBeyondTheStraightStateAtTheNodesOfMaps) {

@@ -62,6 +62,31 @@ TEST(ThresholdsBesideTheStart, MoveNeitherItNorTheLoadsAtWhichBranchesLeave) {
   }
 }
 
+/// A slide pressed against a stop by 0.04 stands 4e-8 within it, which is nothing in its length of 1000 but counts
+/// beside a spring of 0.01: pulled by 0.5 it has left the stop, by (0.5 - 0.04) / 0.01.
+TEST(ThresholdsBesideTheStart, KeepTheForceThatPressesAgainstAStiffStop) {
+  const auto result = run(R"toml(
+[[body]]
+name = "t"
+task_space = "xy"
+pose = [1000, 0]
+[[chain]]
+name = "c"
+elements = [ { joint = "prismatic", axis = "x", name = "x", initial = 1000, role = "preloaded", spring = { law = "piecewise_linear", breakpoints = [1000], stiffnesses = [1e6, 0.01], free = 1000 } } ]
+[[study]]
+name = "pull"
+control = "load"
+direction = [1, 0]
+load = [-0.04, 0]
+until = { lambda = [0, 0.5] }
+)toml")
+                          .of("pull");
+  const auto& rows = result.branches.at(0).samples;
+  ASSERT_FALSE(rows.empty());
+  EXPECT_NEAR(value(result, rows.size() - 1, "lambda"), 0.5, 1e-12);
+  EXPECT_NEAR(value(result, rows.size() - 1, "t.x"), 1046, 1e-6);
+}
+
 /// The torque is 0.7 there, and pushes the tip across: the load that holds it keeps its place, too.
 TEST(ThresholdsBesideTheStart, LeaveThePreloadAsItIs) {
   const std::string held = bar(

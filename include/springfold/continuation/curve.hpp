@@ -46,9 +46,11 @@ enum class HitKind {
 /// A located special point: plain data, always with the interval that proves it.
 struct Hit {
   HitKind kind = HitKind::user;
-  std::string name{};                 ///< the caller's event, or the switches that are crossed
-  CurvePoint point{};                 ///< tangent and piece of the arriving side
-  std::vector<CurvePoint> leaving{};  ///< kinks: every way out, the one that was taken first
+  std::string name{};  ///< the caller's event, or the switches that are crossed
+  CurvePoint point{};  ///< tangent and piece of the arriving side
+  /// Kinks: every way out, the one that was taken first. Branch points: none, but where a path goes on along another
+  /// branch the way that it takes.
+  std::vector<CurvePoint> leaving{};
   /// Half-branches: what seems to leave here within rounding, and leaves at another point next to it.
   std::vector<CurvePoint> leaving_beside{};
   std::vector<Index> switches{};     ///< kinks: which ones are crossed

@@ -58,10 +58,10 @@ SpringLaw scaled(const SpringLaw& law, double coordinate, double torque);
 /// The same law with all its coordinates greater by `by`.
 SpringLaw moved(const SpringLaw& law, double by);
 
-/// The law with its breakpoint nearest to `near` at `to`, a place in a segment beside it. Where a side of the
-/// breakpoint is free of torque, as at a cable that just hangs, the whole law is moved: it is to be free at `to`, too.
-/// Otherwise only the breakpoint is, and the torque at `to` stays what it is. The same law where another breakpoint
-/// lies as near, or none has that place.
+/// The law with its breakpoint nearest to `near` at `to`, a place in a segment beside it. Where the law is free of
+/// torque at the breakpoint, as that of a cable that just hangs, all of it is moved: it is to be free at `to`, too.
+/// Otherwise only the breakpoint is, the torque at `to` stays what it is, and that of the other segment changes by the
+/// difference of both stiffnesses times the way. The same law where another breakpoint lies in between.
 SpringLaw with_breakpoint(const SpringLaw& law, double near, double to);
 
 /// Any spring law in one form: segments, each written from its own anchor so that neighbouring

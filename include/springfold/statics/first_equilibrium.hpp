@@ -78,6 +78,11 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
 bool solves_by_rows(const System& system, const StartProblem& problem,
                     const FirstEquilibrium& found);
 
+/// Newton's method from a state that solves the equations in another unit of force: what stiff springs leave of their
+/// rounding there may be more than soft ones pull with. @returns whether it then solves_by_rows(), hardly moved;
+/// otherwise `found` is as it was
+bool correct_by_rows(const System& system, const StartProblem& problem, FirstEquilibrium& found);
+
 /// Of the matrix at a solution of this problem, for its neighbours; nothing where it cannot be evaluated.
 std::shared_ptr<const Lu> factors_at(const System& system, const StartProblem& problem,
                                      const FirstEquilibrium& found, Workspace& work);
