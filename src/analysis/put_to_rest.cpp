@@ -132,9 +132,9 @@ Begin begin_study(const model::Mechanism& mechanism, const Study& study,
     moved.setup = set_up(moved.mechanism, study, family);
     StartReport again;
     moved.first = find_start(moved.setup, study, again);
-    constexpr double much_less = 0.5;
+    constexpr double clearly_less = 0.9;  // what is pressed against a stop stays as near
     if (!again.found ||
-        !(shifts_of(moved.setup.system, moved.first).largest <= much_less * shifts.largest))
+        !(shifts_of(moved.setup.system, moved.first).largest <= clearly_less * shifts.largest))
       break;
     begin = std::move(moved);
     report = std::move(again);

@@ -62,6 +62,33 @@ TEST(ThresholdsBesideTheStart, MoveNeitherItNorTheLoadsAtWhichBranchesLeave) {
   }
 }
 
+/// Two bars at 45 degrees to the tip, that on the left pressed by 1e-12 of its length and softer there, that on the
+/// right only pulling. Leaning to the right the tip is held by 0.5 + 3 / 2, to the left by 0.5 + 3 / 2 + 0.2 / 2.
+TEST(ThresholdsBesideTheStart, OfBarsThatAreFreeThereAreMadeFreeInTheState) {
+  std::string text = bar("{ law = \"linear\", stiffness = 0.5 }");
+  const std::string link = "{ rigid = [0, 1] },", wide = "bar.h = [-2.5, 2.5]";
+  text.replace(text.find(wide), wide.size(), "bar.h = [-1, 1]");  // before it meets their feet
+  text.insert(text.find(link) + link.size(), "\n  { point = \"top\" },");
+  text.insert(text.find("[[study]]"), R"toml([[spring]]
+name = "left"
+from_at = [-1, 0]
+to = "bar.top"
+law = { law = "piecewise_linear", breakpoints = ["sqrt(2) + 1e-12"], stiffnesses = [0.2, 3], free = "sqrt(2) + 1e-12" }
+[[spring]]
+name = "right"
+from_at = [1, 0]
+to = "bar.top"
+law = { law = "one_sided", stiffness = 3, from = "sqrt(2)" }
+)toml");
+  const auto result = run(text).of("press");
+  EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+  const std::vector<double> found = lambdas(result, EventKind::branching_kink);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR(found[0], 2, 1e-10);
+  EXPECT_NEAR(found[1], 2.1, 1e-10);
+  EXPECT_EQ(result.branches.size(), 3u);
+}
+
 /// A slide pressed against a stop by 0.04 stands 4e-8 within it, which is nothing in its length of 1000 but counts
 /// beside a spring of 0.01: pulled by 0.5 it has left the stop, by (0.5 - 0.04) / 0.01.
 TEST(ThresholdsBesideTheStart, KeepTheForceThatPressesAgainstAStiffStop) {
