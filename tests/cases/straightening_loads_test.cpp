@@ -191,6 +191,23 @@ TEST(StraighteningLoads, OfStretchedChainsAreFollowedBeyondTheStraightState) {
   expect_two_links("{ law = \"linear\", stiffness = 1 }", 1);
 }
 
+TEST(StraighteningLoads, MeetTheStretchedChainAtABranchPointThatIsFollowedOverAParameter) {
+  std::string text = two_links("{ law = \"linear\", stiffness = 1 }");
+  const std::string kind = "kind = \"critical_load\"",
+                    key =
+                        "critical_load = { of = \"loss_of_stability\", parameter = \"W\", range = "
+                        "[0.39, 0.42], values = 4 }";
+  text.replace(text.find(kind), kind.size(), "kind = \"critical_curve\"");
+  text.replace(text.find(key), key.size(),
+               "critical_curve = { of = \"KS1\", parameter = \"W\", range = [0.39, 0.42] }");
+  const StudyResult result = run(text).of("first");
+  EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+  ASSERT_EQ(result.branches.size(), 1u);
+  for (const auto& sample : result.branches[0].samples)
+    EXPECT_NEAR(sample.values[column(result, "lambda")],
+                load_of_two_links(sample.values.back(), -1), 1e-9);
+}
+
 /// A spring that is stiffer on one side makes the branch point a crossing: the path goes on unstable.
 TEST(StraighteningLoads, LoseStabilityWhereTheStretchedChainIsACrossing) {
   expect_two_links(
