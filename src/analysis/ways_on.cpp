@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "springfold/continuation/newton.hpp"
 #include "start.hpp"
@@ -102,24 +101,19 @@ Curve curve_along(const PathProblem& problem, const WayOn& way,
   constexpr double one_way = 0.7;  // ways of one point are farther apart
   const Vector metric = problem.metric();
   const CurvePoint& from = way.from;
-  // All ways are begun, and this one is followed. A new one begins where s falls.
-  double last = std::numeric_limits<double>::infinity();
-  bool is_own = false;
-  const auto observe = [&](const CurvePoint& p) {
-    if (p.s < last)
-      is_own = cosine(metric, {p.x - from.x, p.lambda - from.lambda}, from.tangent) > one_way;
-    last = p.s;
-    return is_own && (!observer || observer(p));
+  const auto is_own = [&](const CurvePoint& begin) {
+    return begin.piece == from.piece && cosine(metric, begin.tangent, from.tangent) > one_way;
   };
   options.maximum_depth = 0;
+  options.ends_at = [&is_own, asked = std::move(options.ends_at)](const CurvePoint& begin) {
+    if (!is_own(begin)) return std::string("another way");
+    return asked ? asked(begin) : std::string();
+  };
   continuation::Diagram diagram = continuation::trace_diagram(
-      problem, {{from.x, from.lambda, from.piece}}, events, options, observe);
-  const auto own =
-      std::ranges::max_element(diagram.branches, {}, [&](const continuation::Branch& branch) {
-        if (branch.curve.points.empty()) return -1.0;
-        const CurvePoint& begin = branch.curve.points.front();
-        return begin.piece == from.piece ? cosine(metric, begin.tangent, from.tangent) : -1.0;
-      });
+      problem, {{from.x, from.lambda, from.piece}}, events, options, observer);
+  const auto own = std::ranges::find_if(diagram.branches, [&](const continuation::Branch& branch) {
+    return !branch.curve.points.empty() && is_own(branch.curve.points.front());
+  });
   if (own == diagram.branches.end()) return {};
   Curve curve = std::move(own->curve);
   for (continuation::Hit& hit : curve.hits) hit.junction = hit.way_back = hit.way_on = -1;
