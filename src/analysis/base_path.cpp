@@ -332,7 +332,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
     case EventKind::switching:
     case EventKind::corner_limit_point:
     case EventKind::branching_kink:
-      if (springs_rest(member, point)) return start_at_rest(curves, member, point, why);
+      if (way_at_rest(member, point)) return start_at_rest(curves, member, point, why);
       if (auto starts = starts_at_switching(curves, point, start); starts.size() == 1)
         return std::move(starts.front());
       why = several_switch(point);
@@ -356,7 +356,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
 
 std::vector<CriticalStart> critical_starts(const CaseCurves& curves, const Member& member,
                                            const SpecialPoint& point, std::string& why) {
-  if (is_at_switching(point.kind) && !springs_rest(member, point)) {
+  if (is_at_switching(point.kind) && !way_at_rest(member, point)) {
     auto starts = starts_at_switching(curves, point, start_at(member, point));
     if (starts.empty()) why = several_switch(point);
     return starts;

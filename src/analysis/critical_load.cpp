@@ -6,6 +6,7 @@
 #include "analysis/undefined.hpp"
 #include "branch_rows.hpp"
 #include "path_problem.hpp"
+#include "resting.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/trace.hpp"
 #include "springfold/core/number_text.hpp"
@@ -90,9 +91,12 @@ class LoadedNode {
   std::optional<Curve> taken_over(const Hit& hit) const {
     const bool branches = hit.kind == HitKind::branch_point || hit.kind == HitKind::branching_kink;
     if (!branches) return std::nullopt;
-    const LoadedState state{
-        .load = [](const CurvePoint& p) { return p.lambda; },
-        .unstable = [this](const CurvePoint& p) { return unstable_modes(problem_, p); }};
+    const LoadedState state{.load = [](const CurvePoint& p) { return p.lambda; },
+                            .unstable = [this](const CurvePoint& p) -> std::optional<Index> {
+                              // No one piece decides on stability.
+                              if (!resting_switches(problem_, p).empty()) return std::nullopt;
+                              return unstable_modes(problem_, p);
+                            }};
     const auto way = taken_over_at(problem_, hit.point, state, options_);
     if (!way) return std::nullopt;
     continuation::DiagramOptions within{.trace = options_};

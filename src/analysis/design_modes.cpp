@@ -16,12 +16,12 @@ constexpr double step_aside = 0x1p-10;
 
 /// Branch points, and those of the pieces beside springs that rest: one after the other on one branch.
 bool is_mode(const DesignPath& path, const SpecialPoint& point) {
-  return point.kind == EventKind::branch_point || springs_rest(path.base(), point);
+  return point.kind == EventKind::branch_point || way_at_rest(path.base(), point);
 }
 
 int modes_at(const DesignPath& path, const SpecialPoint& point) {
-  const int pieces = springs_rest(path.base(), point)
-                         ? static_cast<int>(pieces_at_rest(point).size())
+  const int pieces = way_at_rest(path.base(), point)
+                         ? static_cast<int>(pieces_at_rest(path.base(), point).size())
                          : point.hit.multiplicity;
   return std::max(1, pieces);
 }

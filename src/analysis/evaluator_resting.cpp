@@ -1,5 +1,6 @@
 // Stability of states at which springs rest: all pieces together decide it.
 #include <algorithm>
+#include <cmath>
 
 #include "quantities.hpp"
 #include "resting.hpp"
@@ -87,6 +88,14 @@ std::optional<RestingIndex> Evaluator::resting_index_of(Kind kind,
     switching.push_back(resting[k]);
   }
   return resting_index(matrix, point.piece, switching, E(Eigen::all, moving), problem_.closures());
+}
+
+std::optional<Index> Evaluator::unstable_modes(const QuantityDefinition& index,
+                                               const continuation::CurvePoint& point) const {
+  const auto decided = resting_index_of(index.kind, point);
+  const double value = decided ? decided->index() : this->value(index, point);
+  if (std::isnan(value)) return std::nullopt;
+  return static_cast<Index>(value);
 }
 
 void Evaluator::decide_indices(const std::vector<QuantityDefinition>& quantities,

@@ -65,9 +65,7 @@ std::optional<Index> unstable_at_start(const Member& member,
   const bool dead = settings.stability == StabilityOf::dead_load;
   const QuantityDefinition* index = member.quantity(dead ? "index_force" : "index");
   if (index == nullptr) return std::nullopt;
-  const double value = member.evaluator().value(*index, member.start());
-  if (std::isnan(value)) return std::nullopt;
-  return static_cast<Index>(value);
+  return member.evaluator().unstable_modes(*index, member.start());
 }
 
 FirstUnwanted first_unwanted(const Member* member, const CriticalPointSettings& settings,

@@ -126,11 +126,7 @@ LoadedState loaded_state(const Member& member, const QuantityDefinition& load,
                          const QuantityDefinition& index) {
   const Evaluator& evaluator = member.evaluator();
   return {.load = [&](const auto& point) { return evaluator.value(load, point); },
-          .unstable = [&](const auto& point) -> std::optional<Index> {
-            const double value = evaluator.value(index, point);
-            if (std::isnan(value)) return std::nullopt;
-            return static_cast<Index>(value);
-          }};
+          .unstable = [&](const auto& point) { return evaluator.unstable_modes(index, point); }};
 }
 
 }  // namespace

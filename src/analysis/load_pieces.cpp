@@ -172,7 +172,7 @@ bool stands_alone(const CaseCurves& curves, const Member& member, const SpecialP
     return start && !critical_rate(curves.family(), *start);
   // Several springs that switch at once, each with a curve of its own; springs that rest at this value alone.
   return is_at_switching(point.kind) && !start &&
-         (point.hit.switches.size() > 1 || springs_rest(member, point));
+         (point.hit.switches.size() > 1 || way_at_rest(member, point));
 }
 
 bool is_reached(const CaseCurves& curves, const std::vector<LoadPiece>& pieces, double mu,

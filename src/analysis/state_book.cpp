@@ -114,7 +114,10 @@ WaysDown StateBook::ways_down_past(const std::vector<RestState>& met, const Vect
 void StateBook::leave(const std::vector<RestState>& met, WaysDown& ways) {
   const RestState& state = met.back();
   const auto at = landscape_.ground_on(state.x, state.piece);
-  if (!at || at->hessian.size() == 0) return;
+  if (!at || at->hessian.size() == 0) {
+    ways.lost = true;
+    return;
+  }
   // Where springs rest the modes of one piece may lead into another one, where the energy rises: energies decide.
   bool is_left = false;
   const SymmetricEigen modes = symmetric_eigen(at->hessian);
@@ -137,7 +140,11 @@ void StateBook::leave(const std::vector<RestState>& met, WaysDown& ways) {
           ways.minima.push_back(m);
     }
   // A state that is flat to second order and nowhere left is a minimum all the same.
-  if (!is_left && state.index == 0) ways.minima.push_back(add(state));
+  if (is_left) return;
+  if (state.index == 0)
+    ways.minima.push_back(add(state));
+  else
+    ways.lost = true;
 }
 
 const WaysDown& StateBook::ways_from(std::size_t saddle) {

@@ -168,11 +168,18 @@ std::string several_switch(const SpecialPoint& point) {
   return "several springs switch at " + point.label + " at once";
 }
 
-bool springs_rest(const Member& member, const SpecialPoint& point) {
+std::optional<CurvePoint> way_at_rest(const Member& member, const SpecialPoint& point) {
   const Hit& hit = point.hit;
-  return is_at_switching(point.kind) && !hit.switches.empty() && !hit.leaving.empty() &&
-         hit.leaving.front().piece == hit.point.piece &&
-         rest_along(*member.problem, hit.switches, hit.point);
+  if (!is_at_switching(point.kind) || hit.switches.empty() || hit.leaving.empty())
+    return std::nullopt;
+  const auto rests = [&](const CurvePoint& way) {
+    return rest_along(*member.problem, hit.switches, way);
+  };
+  if (hit.leaving.front().piece == hit.point.piece && rests(hit.point)) return hit.point;
+  if (point.kind != EventKind::branching_kink) return std::nullopt;
+  const auto found = std::find_if(hit.leaving.begin(), hit.leaving.end(), rests);
+  if (found == hit.leaving.end()) return std::nullopt;
+  return *found;
 }
 
 std::vector<Index> switches_at_rest(const Member& member, const SpecialPoint& point) {
@@ -186,22 +193,26 @@ std::vector<Index> switches_at_rest(const Member& member, const SpecialPoint& po
   return found;
 }
 
-std::vector<Piece> pieces_at_rest(const SpecialPoint& point) {
+std::vector<Piece> pieces_at_rest(const Member& member, const SpecialPoint& point) {
   const Hit& hit = point.hit;
   std::vector<Piece> pieces;
-  for (std::size_t i = 1; i < hit.leaving.size(); ++i)
-    if (std::find(pieces.begin(), pieces.end(), hit.leaving[i].piece) == pieces.end())
-      pieces.push_back(hit.leaving[i].piece);
+  const auto add = [&](const CurvePoint& way) {
+    if (!rest_along(*member.problem, hit.switches, way) &&
+        std::find(pieces.begin(), pieces.end(), way.piece) == pieces.end())
+      pieces.push_back(way.piece);
+  };
+  add(hit.point);
+  for (const CurvePoint& way : hit.leaving) add(way);
   if (pieces.empty()) pieces.push_back(hit.point.piece);
   return pieces;
 }
 
 std::optional<CriticalStart> start_at_rest(const CaseCurves& curves, const Member& member,
                                            const SpecialPoint& point, std::string& why) {
-  const CurvePoint& at = point.hit.point;
+  const CurvePoint at = way_at_rest(member, point).value_or(point.hit.point);
   std::optional<CriticalStart> first;
   std::optional<continuation::CriticalPoint> rate_of_first;
-  for (const Piece& piece : pieces_at_rest(point)) {
+  for (const Piece& piece : pieces_at_rest(member, point)) {
     CriticalStart start{.kind = CriticalKind::branch_point,
                         .x = at.x,
                         .lambda = at.lambda,

@@ -64,14 +64,6 @@ std::optional<std::vector<WayOn>> ways_from(const PathProblem& problem, const Cu
   return ways;
 }
 
-/// Where springs rest no one piece decides on stability.
-bool rests(const PathProblem& problem, const CurvePoint& point,
-           const continuation::TraceOptions& options) {
-  Vector g;
-  return problem.switch_count() > 0 && (!problem.switches(point.x, point.lambda, g) ||
-                                        (g.array().abs() <= options.simultaneous).any());
-}
-
 }  // namespace
 
 std::optional<WayOn> taken_over_at(const PathProblem& problem, const CurvePoint& at,
@@ -89,8 +81,7 @@ std::optional<WayOn> taken_over_at(const PathProblem& problem, const CurvePoint&
   };
   if (std::ranges::count_if(*ways, leads_on) != 1) return std::nullopt;
   WayOn& on = *std::ranges::find_if(*ways, leads_on);
-  if (rests(problem, on.beside, options) || state.unstable(on.beside) != Index{0})
-    return std::nullopt;
+  if (state.unstable(on.beside) != Index{0}) return std::nullopt;
   return std::move(on);
 }
 

@@ -29,7 +29,7 @@ struct LoadedState {
 /// The way on behind a point at which branches meet where just one of all ways leads on with a load that changes as it
 /// did on the way to the point, and is stable as that was: a load that straightens what was bent loses nothing there.
 /// @param at  with the tangent of the arriving side
-/// @returns nothing where it is otherwise, not all ways are known, or springs rest along that one
+/// @returns nothing where it is otherwise, or not all ways are known
 std::optional<WayOn> taken_over_at(const PathProblem& problem, const continuation::CurvePoint& at,
                                    const LoadedState& state,
                                    const continuation::TraceOptions& options);

@@ -133,6 +133,50 @@ TEST(StraighteningLoads, AreDesignedForTheLossOfTheStraightOne) {
   EXPECT_NEAR(result.design->parameters.at(0).after, 0.015, 1e-9);
 }
 
+/// The post on a foot that is stiffer or softer to the other side: it rests at the threshold when it is straight.
+std::string post_on_two_stiffnesses(const std::string& left, const std::string& right) {
+  std::string text = post(rigid);
+  const std::string linear = "{ law = \"linear\", stiffness = \"k\" }";
+  return text.replace(text.find(linear), linear.size(),
+                      "{ law = \"piecewise_linear\", breakpoints = [0], stiffnesses = [\"" + left +
+                          "\", \"" + right + "\"] }");
+}
+
+const char* const loss_over_weight =
+    "critical_load = { of = \"loss_of_stability\", parameter = \"W\", range = [1.2, 2], values = 5 "
+    "}";
+
+TEST(StraighteningLoads, LoseNothingWhereASpringRestsThatIsStifferToTheOtherSide) {
+  const StudyResult result =
+      run(post_on_two_stiffnesses("k + 2", "k") + study("critical_load", loss_over_weight))
+          .of("critical_load");
+  EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+  EXPECT_TRUE(result.branches.empty());
+}
+
+/// The straight post stands only from W - k + 0.5 on: it falls to the other side.
+TEST(StraighteningLoads, LoseStabilityWhereASpringRestsThatIsSofterToTheOtherSide) {
+  const StudyResult result =
+      run(post_on_two_stiffnesses("k - 0.5", "k") + study("critical_load", loss_over_weight))
+          .of("critical_load");
+  EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+  ASSERT_EQ(result.branches.size(), 1u);
+  EXPECT_EQ(result.branches[0].samples.front().values.back(), 1.2);
+  EXPECT_EQ(result.branches[0].samples.back().values.back(), 2);
+  for (const auto& sample : result.branches[0].samples)
+    EXPECT_NEAR(sample.values[column(result, "lambda")], sample.values.back() - 1, 1e-9);
+}
+
+/// Straight from the start, and bent away from it to the side on which the spring is soft: there is nothing to lose.
+TEST(StraighteningLoads, LoseNoStabilityThatIsNotThereWhereASpringRestsAtTheStart) {
+  const StudyResult result =
+      run(post_on_two_stiffnesses("k", "k + 2") + study("critical_load", loss_over_weight))
+          .of("critical_load");
+  EXPECT_TRUE(result.branches.empty());
+  ASSERT_EQ(result.doubts.size(), 1u);
+  EXPECT_NE(result.doubts[0].find("the start is unstable itself"), std::string::npos);
+}
+
 /// Two links of length 1 on springs of stiffness 1, bent by a weight W; a load lifts the tip by lambda and presses the
 /// joint between them down by 2 lambda. Upright its first link leans under W - lambda + 2 lambda, its second under
 /// W - lambda: it stands while (2 - W - lambda) (1 - W + lambda) > 1, which is so from lambda_1 on up to lambda_2.
