@@ -202,70 +202,29 @@ std::vector<continuation::Ray> ways_from_start(const Member& member, const Study
   return std::move(rays.rays);
 }
 
-}  // namespace
+/// The two curves of a path as they are to be read.
+struct PathCurves {
+  Curve forward{}, backward{};
+};
 
-BasePath base_path(const Member& member, bool forward_only, const Observer& observer,
-                   double largest_unit, const continuation::HitObserver& enough,
-                   const Study* within, const WayOn* way) {
-  BasePath path;
-  const Study& study = within != nullptr ? *within : member.study;
-  const PathProblem& problem = *member.problem;
-  const Evaluator& evaluator = member.evaluator();
-  const CurvePoint start = way != nullptr ? way->from : member.start();
-  const continuation::TraceOptions options = options_of(study.trace);
-  const std::vector<continuation::Ray> rays =
-      way == nullptr ? ways_from_start(member, study, path) : std::vector<continuation::Ray>{};
-  if (way == nullptr && rays.empty()) return path;
-  const auto events = events_of(study, evaluator, member.quantities());
-  int points = 0;
-  LambdaCrawl crawl(problem, largest_unit, range_of_lambda(study, member.setup));
-  crawl.begin(way != nullptr ? start.tangent : rays[0].tangent);
-  int left = points_behind;
-  Crawl seen = Crawl::none;
-  InfiniteForceWatch forces(problem, events);
-  const auto observe = [&](const CurvePoint& p) {
-    if (path.is_enough && left-- == 0) return false;
-    if (forces.sees(p)) return false;
-    seen = crawl.sees(p);
-    return seen == Crawl::none && (!observer || observer(++points, p.s));
-  };
-  const auto at_hit = [&](const Hit& hit) {
-    path.is_enough = path.is_enough || (enough && enough(hit));
-    return true;
-  };
-  const Following with{problem, study, evaluator, member.quantities()};
-  const auto follow = [&](const continuation::Ray* ray) {
-    Curve curve = ray != nullptr
-                      ? trace_within_limits(with, start, *ray, events, options, observe, at_hit)
-                      : curve_within_limits(with, *way, events, options, observe);
-    if (seen == Crawl::without_bound) end_without_bound(curve);
-    forces.end(curve, options);
-    return curve;
-  };
-  Curve forward = follow(way != nullptr ? nullptr : &rays[0]);
-  Curve backward =
-      forward_only || forward.stop == continuation::StopReason::closed || crawl.factor() > 1
-          ? nothing_behind(forward)
-          : follow(&rays[1]);
-  path.lambda_unit = crawl.factor();
-  if (path.lambda_unit > 1) return path;
-  forward = with_hits_merged(std::move(forward), evaluator);
-  backward = with_hits_merged(std::move(backward), evaluator);
-  if (study.critical.stability == StabilityOf::dead_load)
-    add_stability_changes(with, forward, backward);
-  const auto forward_end = end_at_zero_length(problem, forward);
-  const auto backward_end = end_at_zero_length(problem, backward);
-  BranchSource source{.backward = backward, .forward = forward};
-  source.forward_stop = forward_end.value_or(stop_of(forward));
+/// Rows and special points of the path along its curves.
+void put_rows(const Following& with, bool forward_only, PathCurves curves, BasePath& path) {
+  if (with.study.critical.stability == StabilityOf::dead_load)
+    add_stability_changes(with, curves.forward, curves.backward);
+  const auto forward_end = end_at_zero_length(with.problem, curves.forward);
+  const auto backward_end = end_at_zero_length(with.problem, curves.backward);
+  BranchSource source{.backward = curves.backward, .forward = curves.forward};
+  source.forward_stop = forward_end.value_or(stop_of(curves.forward));
   source.backward_stop =
-      forward_only ? source.forward_stop : backward_end.value_or(stop_of(backward));
+      forward_only ? source.forward_stop : backward_end.value_or(stop_of(curves.backward));
   // Where the curve turns back upon itself the path leads no further.
-  if (forward.stop == continuation::StopReason::turns_upon_itself)
+  if (curves.forward.stop == continuation::StopReason::turns_upon_itself)
     source.forward_stop.complete = false;
   source.at_start = hits_at_start(with, source);
   const std::vector<Hit> on_start = source.at_start;
-  std::vector<BranchRows> rows{join(std::move(source), evaluator, member.quantities(), problem)};
-  label_events(rows, 0, member.quantities());
+  std::vector<BranchRows> rows{
+      join(std::move(source), with.evaluator, with.quantities, with.problem)};
+  label_events(rows, 0, with.quantities);
   path.branch = std::move(rows.front().branch);
   // A path that several pieces continue ends at a kink, which is the special point.
   const auto is_end_at_kink = [&](const Event& event) {
@@ -277,15 +236,68 @@ BasePath base_path(const Member& member, bool forward_only, const Observer& obse
   };
   for (const Event& event : path.branch.events) {
     const double s = path.branch.samples[event.row].values.front();
-    const Hit* hit = s < 0   ? hit_at(backward, -s)
-                     : s > 0 ? hit_at(forward, s)
+    const Hit* hit = s < 0   ? hit_at(curves.backward, -s)
+                     : s > 0 ? hit_at(curves.forward, s)
                              : hit_at_start(on_start, event.kind);
     // What is not looked for from the start on.
-    if (hit == nullptr && s == 0 && event.kind == EventKind::unresolved) hit = hit_at(forward, s);
+    if (hit == nullptr && s == 0 && event.kind == EventKind::unresolved)
+      hit = hit_at(curves.forward, s);
     if (hit != nullptr && event.kind != EventKind::end_of_range && !is_end_at_kink(event))
-      path.points.push_back({event.label, kind_of_path(problem, event, *hit), event.row, *hit});
+      path.points.push_back(
+          {event.label, kind_of_path(with.problem, event, *hit), event.row, *hit});
   }
-  path.forward = forward;
+  path.forward = std::move(curves.forward);
+}
+
+}  // namespace
+
+BasePath base_path(const Member& member, const Observer& observer, const PathOptions& options) {
+  BasePath path;
+  const WayOn* const way = options.way;
+  const Study& study = options.within != nullptr ? *options.within : member.study;
+  const PathProblem& problem = *member.problem;
+  const CurvePoint start = way != nullptr ? way->from : member.start();
+  const continuation::TraceOptions tracing = options_of(study.trace);
+  const std::vector<continuation::Ray> rays =
+      way == nullptr ? ways_from_start(member, study, path) : std::vector<continuation::Ray>{};
+  if (way == nullptr && rays.empty()) return path;
+  const auto events = events_of(study, member.evaluator(), member.quantities());
+  int points = 0;
+  LambdaCrawl crawl(problem, options.largest_unit, range_of_lambda(study, member.setup));
+  crawl.begin(way != nullptr ? start.tangent : rays[0].tangent);
+  int left = points_behind;
+  Crawl seen = Crawl::none;
+  InfiniteForceWatch forces(problem, events);
+  const auto observe = [&](const CurvePoint& p) {
+    if (path.is_enough && left-- == 0) return false;
+    if (forces.sees(p)) return false;
+    seen = crawl.sees(p);
+    return seen == Crawl::none && (!observer || observer(++points, p.s));
+  };
+  const auto at_hit = [&](const Hit& hit) {
+    path.is_enough = path.is_enough || (options.enough && options.enough(hit));
+    return true;
+  };
+  const Following with{problem, study, member.evaluator(), member.quantities()};
+  const auto follow = [&](const continuation::Ray* ray) {
+    Curve curve = ray != nullptr
+                      ? trace_within_limits(with, start, *ray, events, tracing, observe, at_hit)
+                      : curve_within_limits(with, *way, events, tracing, observe);
+    if (seen == Crawl::without_bound) end_without_bound(curve);
+    forces.end(curve, tracing);
+    return curve;
+  };
+  Curve forward = follow(way != nullptr ? nullptr : &rays[0]);
+  Curve backward =
+      options.forward_only || forward.stop == continuation::StopReason::closed || crawl.factor() > 1
+          ? nothing_behind(forward)
+          : follow(&rays[1]);
+  path.lambda_unit = crawl.factor();
+  if (path.lambda_unit > 1) return path;
+  put_rows(with, options.forward_only,
+           {with_hits_merged(std::move(forward), with.evaluator),
+            with_hits_merged(std::move(backward), with.evaluator)},
+           path);
   return path;
 }
 
@@ -297,8 +309,9 @@ CurvesWithPath curves_with_path(const Study& study, std::size_t parameter, bool 
     if (!result.curves->base().report.found) return result;
     const Member& base = result.curves->base();
     const bool in_parts = std::isfinite(base.setup.rule.lambda_measure.linear);
-    result.path = base_path(base, forward_only, observer,
-                            in_parts ? 1 : largest_change_of_lambda_unit / result.lambda_unit);
+    const double largest = in_parts ? 1 : largest_change_of_lambda_unit / result.lambda_unit;
+    result.path =
+        base_path(base, observer, {.forward_only = forward_only, .largest_unit = largest});
     if (!(result.path.lambda_unit > 1)) return result;
     result.lambda_unit *= result.path.lambda_unit;
   }

@@ -11,8 +11,8 @@ namespace springfold::analysis {
 
 struct SpecialPoint {
   std::string label{};  ///< as in the study's table: "LP1"
-  EventKind kind = EventKind::
-      limit_point;          ///< of KS that of the branch point that it is, if one chain loses rank
+  /// Of KS that of the branch point that it is, if one chain loses rank.
+  EventKind kind = EventKind::limit_point;
   std::size_t row = 0;      ///< in BasePath::branch
   continuation::Hit hit{};  ///< walked away from the start
 };
@@ -40,15 +40,18 @@ std::string early_ends(const Branch& branch);
 /// There is no path: the start is none.
 void refuse_start(const BasePath& path, StartReport& report);
 
-/// The branch through the start, both ways or only the one in which lambda grows. Special points that end it
-/// are left out.
-/// @param enough  true: nothing far behind this point is asked for
-/// @param largest_unit  by which factor the unit of lambda may grow where it turns out to be too small (LambdaCrawl)
-/// @param within  the study with other limits; nullptr: the member's own
-/// @param way  the path begins there, and is followed along it alone; nullptr: at the start
-BasePath base_path(const Member& member, bool forward_only, const Observer& observer,
-                   double largest_unit = 1, const continuation::HitObserver& enough = {},
-                   const Study* within = nullptr, const WayOn* way = nullptr);
+struct PathOptions {
+  bool forward_only = true;  ///< the way in which lambda grows; otherwise both
+  double largest_unit =
+      1;  ///< by which factor the unit of lambda may grow if it is too small (LambdaCrawl)
+  continuation::HitObserver enough{};  ///< true: nothing far behind this point is asked for
+  const Study* within = nullptr;       ///< the study with other limits; nullptr: the member's own
+  const WayOn* way =
+      nullptr;  ///< the path begins there, along this one alone; nullptr: at the start
+};
+
+/// The branch through the start. Special points that end it are left out.
+BasePath base_path(const Member& member, const Observer& observer, const PathOptions& options = {});
 
 /// The curves of a study, and the path of the case's own one.
 struct CurvesWithPath {

@@ -307,7 +307,7 @@ class Design {
   void draw(const Vector& values) {
     const DesignPath path(path_case(), values);
     if (!path.has_start()) return;
-    BasePath traced = base_path(path.base(), false, observer_);
+    BasePath traced = base_path(path.base(), observer_, {.forward_only = false});
     if (!traced.problem.empty()) {
       result_.doubts.push_back(traced.problem);
       return;

@@ -73,7 +73,7 @@ DesignPath::DesignPath(const DesignCase& of, const Vector& values, const Vector&
   }
 }
 
-void DesignPath::trace(const Observer& observer) { path_ = base_path(base(), true, observer); }
+void DesignPath::trace(const Observer& observer) { path_ = base_path(base(), observer); }
 
 std::string doubt_of(const BasePath& path) {
   if (!path.problem.empty()) return path.problem;

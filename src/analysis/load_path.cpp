@@ -134,8 +134,8 @@ LoadedState loaded_state(const Member& member, const QuantityDefinition& load,
 BasePath load_path(const Member& member, const CriticalPointSettings& settings,
                    const Observer& observer, const continuation::HitObserver& enough,
                    const Study* within) {
-  return load_path(base_path(member, true, observer, 1, enough, within), member, settings, observer,
-                   enough, within);
+  return load_path(base_path(member, observer, {.enough = enough, .within = within}), member,
+                   settings, observer, enough, within);
 }
 
 BasePath load_path(BasePath path, const Member& member, const CriticalPointSettings& settings,
@@ -164,7 +164,8 @@ BasePath load_path(BasePath path, const Member& member, const CriticalPointSetti
     const auto way = taken_over_at(*member.problem, at, loaded_state(member, *load, *index),
                                    options_of(study.trace));
     if (!way) break;
-    BasePath onward = base_path(member, true, observer, 1, enough, within, &*way);
+    BasePath onward =
+        base_path(member, observer, {.enough = enough, .within = within, .way = &*way});
     if (!onward.problem.empty() || onward.forward.points.empty()) break;
     const auto is_kept = [&, kind = first->kind, before = path](const SpecialPoint& other) {
       return other.kind != kind && !is_unwanted(member, settings, before, other);

@@ -10,7 +10,7 @@ namespace springfold::analysis {
 /// is lost where a load straightens what was bent. Everywhere else, and where that is not known, it is the curve.
 /// Labels count along the path.
 /// @param settings  whose loss counts: under the study's control or under dead load, where the force is the load
-/// @param enough, within  as in base_path()
+/// @param enough, within  as in PathOptions
 BasePath load_path(const Member& member, const CriticalPointSettings& settings,
                    const Observer& observer, const continuation::HitObserver& enough = {},
                    const Study* within = nullptr);
