@@ -233,6 +233,31 @@ Crossing crossing_right_ahead(const SwitchOnStep& f, const Workspace::Switches& 
   return {.located = Located{std::move(*place), 0, length}};
 }
 
+/// A surface that the curve leaves where the step begins, and to which its rates surely bring it back before any value
+/// is more than rounding: rates change evenly so near. They have the place, and the surface's own equations tell it.
+Crossing crossing_on_return(
+    const SwitchOnStep& f, double value, const CurvePoint& to,
+    const std::pair<const Workspace::Switches&, const Workspace::Switches&>& at) {
+  constexpr int rounds = 4;
+  constexpr double alike = 0.25;
+  const double rate = f.side * sure_rate(f.walker, at.first, f.j, f.from);
+  double length = f.h, back = f.side * sure_rate(f.walker, at.second, f.j, to);
+  for (int k = 0; k < rounds && rate > 0 && back < 0; ++k) {
+    length *= 2 * rate / (rate - back);
+    const double height = rate * length / 4;
+    if (!(length < f.h && height <= f.noise && std::abs(value) <= small_share * height)) break;
+    const auto near = point_at(f.walker, f.from, length);
+    Workspace::Switches there;
+    if (!near || !read_switches(f.walker, *near, there)) break;
+    back = f.side * sure_rate(f.walker, there, f.j, *near);
+    if (!(back < 0) || std::abs(back + rate) > alike * rate) continue;
+    auto place = place_on_surface(f.walker, f.from, *near, f.j);
+    if (!place || std::abs(place->s - f.from.s - length) > alike * length) break;
+    return {.located = Located{std::move(*place), 0, 2 * length}};
+  }
+  return {.clear = false};
+}
+
 /// The tangent with which a curve arrives at step length `ds`, from its points before: at a branch point the equations
 /// have two directions and do not say which is that of this curve.
 std::optional<Direction> arriving_tangent(const Walker& walker, const CurvePoint& from, double ds) {
@@ -319,6 +344,7 @@ KinkSearch first_kink(const Walker& walker, const CurvePoint& from, const CurveP
       if (on_step.noise < noise) crossing = crossing_of(on_step, ends, contains(left, j));
     }
     if (!crossing.clear && moves_away(on_step, to, ends, {first, last})) continue;
+    if (!crossing.clear) crossing = crossing_on_return(on_step, ends.f0, to, {first, last});
     if (!crossing.clear && !contains(left, j)) crossing = crossing_right_ahead(on_step, first);
     if (!crossing.clear) return {.status = KinkSearch::Status::suspicious, .suspect = j};
     if (crossing.touches) result.touched.push_back(j);
