@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "analysis/undefined.hpp"
+#include "frozen.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -57,7 +58,44 @@ std::shared_ptr<const CaseFamily> neighbours(const DesignCase& of, const Vector&
   return family;
 }
 
+/// The family of the cases between the case itself, at 0, and a design, at 1.
+std::shared_ptr<const CaseFamily> way_to(const DesignCase& of, const Vector& values) {
+  const std::shared_ptr<const CaseFamily>& all = of.study.critical.cases;
+  auto family = std::make_shared<CaseFamily>();
+  family->names = {"way"};
+  family->values = {0};
+  family->at = [all, numbers = of.numbers,
+                values](const std::vector<std::pair<std::size_t, double>>& changes) {
+    const double part = changes.empty() ? 0 : changes.front().second;
+    std::vector<std::pair<std::size_t, double>> together;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const double from = all->values[numbers[i]], to = values[static_cast<Index>(i)];
+      together.emplace_back(numbers[i], part < 1 ? from + part * (to - from) : to);
+    }
+    return all->at(together);
+  };
+  return family;
+}
+
 }  // namespace
+
+bool follows_start(const DesignCase& of, const Vector& values, const Member& at) {
+  bool is_case = true;
+  for (std::size_t i = 0; i < of.numbers.size(); ++i)
+    is_case =
+        is_case && values[static_cast<Index>(i)] == of.study.critical.cases->values[of.numbers[i]];
+  if (is_case) return true;
+  Study study = of.study;
+  study.critical.cases = way_to(of, values);
+  study.critical.parameter = "way";
+  study.critical.low = 0;
+  study.critical.high = 1;
+  const CaseCurves way(study, 0);
+  if (!way.has_base() || !way.base().report.found) return true;
+  const Member* const end = way.at(1 / way.scale());
+  return end != nullptr && end->sheet == way.base().sheet &&
+         same_equilibrium(at.setup.system, end->first.z, at.first.z);
+}
 
 DesignPath::DesignPath(const DesignCase& of, const Vector& values, const Vector& pose)
     : slope_units_{of.slope_units} {
