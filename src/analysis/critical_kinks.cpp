@@ -98,6 +98,8 @@ class Follower {
       end_before(*crossed, last, found);
     else if (found.curve.stop == continuation::StopReason::step_too_small)
       found.kink = kink_near_end(found.curve);
+    if (!crossed && !found.kink && found.curve.stop == continuation::StopReason::step_too_small)
+      found.kink = bend_near_end(found.curve);
     return found;
   }
 
@@ -189,6 +191,50 @@ class Follower {
     return place ? std::optional(place->first) : std::nullopt;
   }
 
+  /// Two points of the curve of a piece, a step apart, and what it changes by from the first to the second.
+  struct Chord {
+    CriticalPoint from{}, to{};
+    Vector change{};  ///< of unknowns and lambda
+  };
+
+  std::optional<Chord> chord(const CriticalPoint& guess, double mu, double step) const {
+    const auto from = point_at(guess, mu);
+    const auto to = from ? point_at(*from, mu + step) : std::nullopt;
+    if (!to) return std::nullopt;
+    Vector change(from->x.size() + 1);
+    change << to->x - from->x, to->lambda - from->lambda;
+    return Chord{*from, *to, std::move(change)};
+  }
+
+  /// Where the slope of the curve jumps near its end, as where a spring's law bends and nothing switches: there lines
+  /// through its points before and behind meet, and their slopes go on to differ where these are taken nearer.
+  std::optional<double> bend_near_end(const CriticalCurve& curve) const {
+    constexpr int rounds = 12;
+    constexpr double nearer = 0.5, alike = 0.25;
+    if (curve.points.empty() || curve.points.back().dmu == 0) return std::nullopt;
+    CriticalPoint guess = curve.points.back();
+    const double sense = guess.dmu > 0 ? 1 : -1;
+    double place = guess.mu, step = 2 * sense * step_of_family, jump = 0;
+    for (int k = 0; k < rounds; ++k, step *= nearer) {
+      // Both chords lead towards the place.
+      const auto before = chord(guess, place - 2 * step, step);
+      const auto behind = before ? chord(before->to, place + 2 * step, -step) : std::nullopt;
+      if (!behind || !is_on_piece(curves_, start_, behind->to)) return std::nullopt;
+      Vector gap(before->change.size());
+      gap << behind->to.x - before->to.x, behind->to.lambda - before->to.lambda;
+      // before->to + t change = behind->to + (2 - t) change behind it, t in steps
+      const Vector turn = before->change + behind->change;
+      const double t = turn.dot(gap + 2 * behind->change) / turn.squaredNorm();
+      if (!(t > 0 && t < 2)) return std::nullopt;
+      const double slopes = turn.norm() / std::abs(step);
+      if (k == 0) jump = slopes;
+      if (!(slopes > alike * jump)) return std::nullopt;
+      place += (t - 1) * step;
+      guess = before->to;
+    }
+    return place;
+  }
+
   /// The stretch ends at `last`, the last point before the kink, or nearer to it.
   void end_before(double crossed, const CriticalPoint& last, Stretch& stretch) const {
     CriticalCurve& curve = stretch.curve;
@@ -275,7 +321,7 @@ CriticalCurve follow_over_kinks(const CaseCurves& curves, const CriticalStart& s
     curve.stop = continuation::StopReason::step_too_small;
     curve.stop_detail = "the curve could not be followed over " + curves.name() + " = " +
                         rounded(*stretch.kink * curves.scale()) +
-                        ", where a spring switches at the start";
+                        ", where a spring switches at the start or its law bends";
     if (last.dmu == 0 || std::ssize(passed) == most_kinks) break;
     const auto kink = point_near(curves, start, on_line(last, last, *stretch.kink), last);
     if (!kink || !is_on_piece(curves, start, *kink)) break;
