@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "critical_bends.hpp"
 #include "critical_pieces.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/number_text.hpp"
@@ -40,17 +41,6 @@ CriticalPoint on_line(const CriticalPoint& from, const CriticalPoint& slope, dou
   guess.lambda += t * slope.dlambda;
   guess.mu = mu;
   return guess;
-}
-
-/// Does no switch contradict the piece on which the point is followed? Those that are zero there do not.
-bool is_on_piece(const CaseCurves& curves, const CriticalStart& start, const CriticalPoint& point) {
-  constexpr double zero = continuation::promised_place;
-  const Member* member = curves.equations_at(point.mu);
-  Vector g;
-  if (member == nullptr || !member->problem->switches(point.x, point.lambda, g)) return false;
-  for (Index j = 0; j < g.size(); ++j)
-    if (g[j] * start.piece[static_cast<std::size_t>(j)] < -zero) return false;
-  return true;
 }
 
 /// A curve up to just before a kink, or to its end.
@@ -98,8 +88,9 @@ class Follower {
       end_before(*crossed, last, found);
     else if (found.curve.stop == continuation::StopReason::step_too_small)
       found.kink = kink_near_end(found.curve);
-    if (!crossed && !found.kink && found.curve.stop == continuation::StopReason::step_too_small)
-      found.kink = bend_near_end(found.curve);
+    if (crossed || found.kink || found.curve.stop != continuation::StopReason::step_too_small)
+      return found;
+    found.kink = bend_near_end(curves_, start_, found.curve);
     return found;
   }
 
@@ -191,50 +182,6 @@ class Follower {
     return place ? std::optional(place->first) : std::nullopt;
   }
 
-  /// Two points of the curve of a piece, a step apart, and what it changes by from the first to the second.
-  struct Chord {
-    CriticalPoint from{}, to{};
-    Vector change{};  ///< of unknowns and lambda
-  };
-
-  std::optional<Chord> chord(const CriticalPoint& guess, double mu, double step) const {
-    const auto from = point_at(guess, mu);
-    const auto to = from ? point_at(*from, mu + step) : std::nullopt;
-    if (!to) return std::nullopt;
-    Vector change(from->x.size() + 1);
-    change << to->x - from->x, to->lambda - from->lambda;
-    return Chord{*from, *to, std::move(change)};
-  }
-
-  /// Where the slope of the curve jumps near its end, as where a spring's law bends and nothing switches: there lines
-  /// through its points before and behind meet, and their slopes go on to differ where these are taken nearer.
-  std::optional<double> bend_near_end(const CriticalCurve& curve) const {
-    constexpr int rounds = 12;
-    constexpr double nearer = 0.5, alike = 0.25;
-    if (curve.points.empty() || curve.points.back().dmu == 0) return std::nullopt;
-    CriticalPoint guess = curve.points.back();
-    const double sense = guess.dmu > 0 ? 1 : -1;
-    double place = guess.mu, step = 2 * sense * step_of_family, jump = 0;
-    for (int k = 0; k < rounds; ++k, step *= nearer) {
-      // Both chords lead towards the place.
-      const auto before = chord(guess, place - 2 * step, step);
-      const auto behind = before ? chord(before->to, place + 2 * step, -step) : std::nullopt;
-      if (!behind || !is_on_piece(curves_, start_, behind->to)) return std::nullopt;
-      Vector gap(before->change.size());
-      gap << behind->to.x - before->to.x, behind->to.lambda - before->to.lambda;
-      // before->to + t change = behind->to + (2 - t) change behind it, t in steps
-      const Vector turn = before->change + behind->change;
-      const double t = turn.dot(gap + 2 * behind->change) / turn.squaredNorm();
-      if (!(t > 0 && t < 2)) return std::nullopt;
-      const double slopes = turn.norm() / std::abs(step);
-      if (k == 0) jump = slopes;
-      if (!(slopes > alike * jump)) return std::nullopt;
-      place += (t - 1) * step;
-      guess = before->to;
-    }
-    return place;
-  }
-
   /// The stretch ends at `last`, the last point before the kink, or nearer to it.
   void end_before(double crossed, const CriticalPoint& last, Stretch& stretch) const {
     CriticalCurve& curve = stretch.curve;
@@ -302,6 +249,44 @@ std::optional<std::pair<double, std::string>> switching_start(const CaseCurves& 
   return std::pair{beyond, curves.base().problem->switch_name(differs)};
 }
 
+namespace {
+
+/// Leads the curve over the kink at its end. @returns false where it cannot be followed farther
+bool pass_kink(const CaseCurves& curves, const CriticalStart& start, const Follower& follower,
+               const std::vector<CriticalEvent>& events, std::vector<CriticalPoint>& passed,
+               Stretch& stretch) {
+  CriticalCurve& curve = stretch.curve;
+  const CriticalPoint last = curve.points.back();
+  // Until it goes on, the curve ends here.
+  curve.stop = continuation::StopReason::step_too_small;
+  curve.stop_detail = "the curve could not be followed over " + curves.name() + " = " +
+                      rounded(*stretch.kink * curves.scale()) +
+                      ", where a spring switches at the start or its law bends";
+  if (last.dmu == 0 || std::ssize(passed) == most_kinks) return false;
+  const auto kink = point_near(curves, start, on_line(last, last, *stretch.kink), last);
+  if (!kink || !is_on_piece(curves, start, *kink)) return false;
+  const auto is_kink = [&](const CriticalPoint& other) {
+    return other.dmu * last.dmu > 0 && distance(other, *kink) <= continuation::told_apart;
+  };
+  if (std::any_of(passed.begin(), passed.end(), is_kink)) {
+    end_at_start(passed.front().s, curve);
+    return false;
+  }
+  passed.push_back(*kink);
+  auto next = follower.from_kink(*kink, last);
+  if (!next || !is_on_piece(curves, start, next->curve.points.front())) return false;
+  CriticalPoint first = next->curve.points.front();
+  first.s = kink->s + distance(first, *kink);
+  if (close_gap(curves, start, events, *kink, curve) ||
+      close_gap(curves, start, events, first, curve))
+    return false;
+  append(std::move(next->curve), curve);
+  stretch.kink = next->kink;
+  return true;
+}
+
+}  // namespace
+
 CriticalCurve follow_over_kinks(const CaseCurves& curves, const CriticalStart& start, bool growing,
                                 const std::vector<CriticalEvent>& events,
                                 const continuation::TraceOptions& options,
@@ -313,37 +298,10 @@ CriticalCurve follow_over_kinks(const CaseCurves& curves, const CriticalStart& s
                         stretch.curve.points.size() < 2 && !stretch.kink;
   if (is_stuck)
     if (auto beside = follower.beside(start, growing)) stretch = std::move(*beside);
-  CriticalCurve& curve = stretch.curve;
   std::vector<CriticalPoint> passed;
-  while (stretch.kink && !curve.points.empty()) {
-    const CriticalPoint last = curve.points.back();
-    // Until it goes on, the curve ends here.
-    curve.stop = continuation::StopReason::step_too_small;
-    curve.stop_detail = "the curve could not be followed over " + curves.name() + " = " +
-                        rounded(*stretch.kink * curves.scale()) +
-                        ", where a spring switches at the start or its law bends";
-    if (last.dmu == 0 || std::ssize(passed) == most_kinks) break;
-    const auto kink = point_near(curves, start, on_line(last, last, *stretch.kink), last);
-    if (!kink || !is_on_piece(curves, start, *kink)) break;
-    const auto is_kink = [&](const CriticalPoint& other) {
-      return other.dmu * last.dmu > 0 && distance(other, *kink) <= continuation::told_apart;
-    };
-    if (std::any_of(passed.begin(), passed.end(), is_kink)) {
-      end_at_start(passed.front().s, curve);
-      break;
-    }
-    passed.push_back(*kink);
-    auto next = follower.from_kink(*kink, last);
-    if (!next || !is_on_piece(curves, start, next->curve.points.front())) break;
-    CriticalPoint first = next->curve.points.front();
-    first.s = kink->s + distance(first, *kink);
-    if (close_gap(curves, start, events, *kink, curve) ||
-        close_gap(curves, start, events, first, curve))
-      break;
-    append(std::move(next->curve), curve);
-    stretch.kink = next->kink;
-  }
-  return curve;
+  while (stretch.kink && !stretch.curve.points.empty())
+    if (!pass_kink(curves, start, follower, events, passed, stretch)) break;
+  return std::move(stretch.curve);
 }
 
 }  // namespace springfold::analysis

@@ -176,6 +176,7 @@ class Design {
     if (is_birth) verify_birth(found);
     doubt_unstable_start(found, is_birth);
     doubt_broken_rule(found);
+    doubt_jump_of_start(found);
     const bool rows_fit = check_rows(found);
     if (!rows_fit) report_.verified = false;
     if (!report_.verified)
@@ -228,6 +229,17 @@ class Design {
     if (rule.empty()) return;
     report_.verified = false;
     result_.doubts.push_back("a case with the values of this design may not be given: " + rule);
+  }
+
+  /// The case with the values of the design may begin in another state, far away, that asks for nothing.
+  void doubt_jump_of_start(const FoundDesign& found) {
+    const Vector values = search_.values(found.changes);
+    const DesignPath path(search_.requirements().designs(), values);
+    if (!path.has_start()) return;
+    if (const auto part = jump_of_start(search_.requirements().designs(), values, path.base()))
+      result_.doubts.push_back(
+          "the start of this design is not that of the case: on the way there, when " +
+          rounded(100 * *part, digits) + " % of the changes are made, that one vanishes");
   }
 
   /// Why an answer is not confirmed.

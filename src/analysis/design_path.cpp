@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "analysis/undefined.hpp"
-#include "frozen.hpp"
+#include "springfold/continuation/numerics.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -70,31 +70,64 @@ std::shared_ptr<const CaseFamily> way_to(const DesignCase& of, const Vector& val
     std::vector<std::pair<std::size_t, double>> together;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const double from = all->values[numbers[i]], to = values[static_cast<Index>(i)];
-      together.emplace_back(numbers[i], part < 1 ? from + part * (to - from) : to);
+      together.emplace_back(numbers[i], part == 1 ? to : from + part * (to - from));
     }
     return all->at(together);
   };
   return family;
 }
 
+/// Do both begin in one state? In the units of the case: their own may differ.
+bool begin_alike(const Member& a, const Member& b) {
+  for (std::size_t i = 0; i < a.quantities().size(); ++i) {
+    const QuantityDefinition &one = a.quantities()[i], &other = b.quantities()[i];
+    if (one.kind != QuantityDefinition::Kind::unknown) continue;
+    const double here = a.evaluator().value(one, a.start()),
+                 there = b.evaluator().value(other, b.start());
+    const double size = std::max({one.scale, std::abs(here), std::abs(there)});
+    if (std::abs(here - there) > continuation::told_apart * size) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
-bool follows_start(const DesignCase& of, const Vector& values, const Member& at) {
-  bool is_case = true;
-  for (std::size_t i = 0; i < of.numbers.size(); ++i)
-    is_case =
-        is_case && values[static_cast<Index>(i)] == of.study.critical.cases->values[of.numbers[i]];
-  if (is_case) return true;
+std::optional<double> jump_of_start(const DesignCase& of, const Vector& values, const Member& at) {
+  constexpr int halvings = 30;
+  constexpr double just_beyond = 1e-6;  // an answer lies on the limit that decides it
+  // A start that vanishes moves like the root of what is left of the way; where it goes on it moves like that itself.
+  constexpr double far = 100;
   Study study = of.study;
+  if (of.study.critical.cases->at({}).is_in_state) return std::nullopt;
   study.critical.cases = way_to(of, values);
   study.critical.parameter = "way";
   study.critical.low = 0;
   study.critical.high = 1;
   const CaseCurves way(study, 0);
-  if (!way.has_base() || !way.base().report.found) return true;
-  const Member* const end = way.at(1 / way.scale());
-  return end != nullptr && end->sheet == way.base().sheet &&
-         same_equilibrium(at.setup.system, end->first.z, at.first.z);
+  if (!way.has_base() || !way.base().report.found) return std::nullopt;
+  const auto start = [&](double part) -> std::optional<Vector> {
+    const Member* const member = way.at(part / way.scale());
+    if (member == nullptr) return std::nullopt;
+    return member->start_pose();
+  };
+  const auto is_followed = [&](double part) {
+    const Member* const member = way.at(part / way.scale());
+    return member != nullptr && member->sheet == way.base().sheet;
+  };
+  // The start that is followed there need not be the one with which the design begins.
+  if (is_followed(1) && !begin_alike(*way.at(1 / way.scale()), at)) return 1;
+  double low = 0, high = 1 + just_beyond;
+  if (is_followed(high)) return std::nullopt;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (is_followed(middle) ? low : high) = middle;
+  }
+  const double width = high - low;
+  const auto last = start(low), before = start(low - width), behind = start(high);
+  if (!last || !before || !behind) return std::nullopt;
+  const double jump = (*behind - *last).norm();
+  const bool jumps = jump > far * (*last - *before).norm() && jump > continuation::promised_place;
+  return jumps ? std::optional(high) : std::nullopt;
 }
 
 DesignPath::DesignPath(const DesignCase& of, const Vector& values, const Vector& pose)

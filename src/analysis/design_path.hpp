@@ -29,10 +29,11 @@ struct DesignCase {
   SlopeUnits slope_units{};            ///< of the case itself
 };
 
-/// Is this start the one that the case's own becomes where all parameters of the design move there together? It is not
-/// where that vanishes on the way, as under a load that the mechanism bears no more: then another one, far away, is found.
-/// @param at  the case with these values
-bool follows_start(const DesignCase& of, const Vector& values, const Member& at);
+/// Where all parameters of the design move from the case to these values together: the part of the way, in (0, 1], at
+/// which the start jumps, as one under a load that the mechanism bears no more. Nothing: it does not, or that is not
+/// known, as where the start is the end of another study.
+/// @param at  the case with these values, as it begins
+std::optional<double> jump_of_start(const DesignCase& of, const Vector& values, const Member& at);
 
 /// The curves of one design, one family for every parameter. The case must outlive it.
 class DesignPath {

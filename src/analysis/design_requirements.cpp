@@ -130,10 +130,6 @@ std::optional<Assessment> Requirements::assess(const Vector& values, const std::
     why = "no start: " + path.base().report.message;
     return std::nullopt;
   }
-  if (!follows_start(case_, values, path.base())) {
-    why = "no start: that of the case vanishes on the way there";
-    return std::nullopt;
-  }
   if (needs_path_) path.trace(observer);
   Sheet sheet;
   const bool known = add_critical(path, values, ways, observer, sheet) && add_curve(path, sheet) &&

@@ -92,8 +92,7 @@ std::optional<RestingIndex> Evaluator::resting_index_of(Kind kind,
 
 std::optional<Index> Evaluator::unstable_modes(const QuantityDefinition& index,
                                                const continuation::CurvePoint& point) const {
-  const auto decided = resting_index_of(index.kind, point);
-  const double value = decided ? decided->index() : this->value(index, point);
+  const double value = values({index}, point).front();
   if (std::isnan(value)) return std::nullopt;
   return static_cast<Index>(value);
 }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <memory>
 
+#include "springfold/continuation/newton.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/equilibration.hpp"
 
@@ -91,6 +93,9 @@ continuation::Curve with_merged_force_events(continuation::Curve curve,
     }
   const std::vector<Hit> all = curve.hits;
   std::erase_if(curve.hits, [&](const Hit& hit) {
+    const bool is_told_by_sign =
+        is_force_limit(hit) || has_tag(hit, dead_load_change) || has_tag(hit, driven_change);
+    if (is_told_by_sign && is_beside_branch_end(curve, hit.point, evaluator.problem())) return true;
     if (is_force_limit(hit))
       return is_met_at(hit, all, [](const Hit& h) { return h.kind == HitKind::branch_point; });
     return (has_tag(hit, dead_load_change) || has_tag(hit, driven_change)) &&
@@ -98,6 +103,31 @@ continuation::Curve with_merged_force_events(continuation::Curve curve,
                      [&](const Hit& h) { return h.kind != HitKind::user || is_force_limit(h); });
   });
   return curve;
+}
+
+bool is_beside_branch_end(const continuation::Curve& curve, const continuation::CurvePoint& point,
+                          const PathProblem& problem) {
+  const auto& points = curve.points;
+  if (points.size() < 2) return false;
+  const auto singular_values = [&](const continuation::CurvePoint& at) -> Vector {
+    continuation::Linearisation linear;
+    if (!continuation::linearise_densely(problem, at.x, at.lambda, at.piece, linear)) return {};
+    Matrix both(linear.dF_dx.rows(), linear.dF_dx.cols() + 1);
+    both << linear.dF_dx, linear.dF_dlambda;
+    return jacobi_svd(both).values;
+  };
+  // All of a small problem may vanish there: what it is measured by is beside it.
+  const auto is_branch_point = [&](const continuation::CurvePoint& end,
+                                   const continuation::CurvePoint& beside) {
+    const Vector here = singular_values(end), there = singular_values(beside);
+    return here.size() > 0 && there.size() > 0 &&
+           here[here.size() - 1] <= continuation::located_rank * std::max(here[0], there[0]);
+  };
+  const auto is_near = [&](const continuation::CurvePoint& end) {
+    return std::abs(point.s - end.s) < continuation::told_apart;
+  };
+  return (is_near(points.front()) && is_branch_point(points.front(), points[1])) ||
+         (is_near(points.back()) && is_branch_point(points.back(), points[points.size() - 2]));
 }
 
 }  // namespace springfold::analysis

@@ -25,4 +25,9 @@ continuation::Event dead_load_event(const Evaluator& evaluator);
 /// extremum.
 continuation::Curve with_merged_force_events(continuation::Curve curve, const Evaluator& evaluator);
 
+/// Does the curve begin or end at a branch point near this one? Nearer than points are told apart, rates and
+/// determinants of a branch are those of the point where it begins, and rounding has their sign.
+bool is_beside_branch_end(const continuation::Curve& curve, const continuation::CurvePoint& point,
+                          const PathProblem& problem);
+
 }  // namespace springfold::analysis

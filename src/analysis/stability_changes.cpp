@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "branch_rows.hpp"
+#include "force_events.hpp"
 #include "grow_diagram.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/hermite.hpp"
@@ -202,7 +203,9 @@ class Watcher {
 
   /// A curve may begin or end at a special point, which then is none of its hits.
   bool is_explained(const Curve& curve, const CurvePoint& point) const {
-    if (is_at(point, curve.points.front()) || is_at(point, curve.points.back())) return true;
+    if (is_at(point, curve.points.front()) || is_at(point, curve.points.back()) ||
+        is_beside_branch_end(curve, point, t_.problem))
+      return true;
     return std::any_of(curve.hits.begin(), curve.hits.end(),
                        [&](const Hit& hit) { return is_special(hit) && is_at(point, hit.point); });
   }

@@ -11,19 +11,20 @@
 namespace springfold::io {
 namespace {
 
-constexpr double height = 0.8;
+constexpr double apex_height = 0.8;
 
-std::string bar(const std::string& name, double x, double y, double stiffness, bool is_strut) {
-  const double length = std::hypot(x, height - y);
+std::string truss_bar(const std::string& name, double x, double y, double stiffness,
+                      bool is_strut) {
+  const double length = std::hypot(x, apex_height - y);
   return "[[node]]\nname = \"foot-" + name + "\"\nat = [" + number(x) + ", " + number(y) +
          "]\nfixed = true\n[[bar]]\nname = \"" + name + "\"\nfrom = \"foot-" + name +
          "\"\nto = \"apex\"\nfree = " + number(length) + "\nstiffness = " + number(stiffness) +
          (is_strut ? "\ncompression_only = true\n" : "\n");
 }
 
-/// Without the guys, which are slack all along: load where the length of both bars is (1 + height^2)^(1/6).
+/// Without the guys, which are slack all along: load where the length of both bars is (1 + apex_height^2)^(1/6).
 double limit_load(double mean_stiffness) {
-  const double free = std::hypot(1, height), length = std::cbrt(free);
+  const double free = std::hypot(1, apex_height), length = std::cbrt(free);
   return 2 * mean_stiffness * std::sqrt(length * length - 1) * (free / length - 1);
 }
 
@@ -32,10 +33,10 @@ TEST(GuysOfATruss, ThatItLeavesAtOnceAreNoObstacleHoweverLittleTheyActBefore) {
     for (const double stiffness : {1.0, 1e-3}) {
       SCOPED_TRACE(number(unequal) + ", " + number(stiffness));
       const auto result =
-          run("[[node]]\nname = \"apex\"\nat = [0, " + number(height) + "]\n" +
-              bar("left", -1, 0, 1, false) + bar("right", 1, 0, 1 + unequal, false) +
-              bar("right-guy", 2, height, stiffness, true) +
-              bar("left-guy", -2, height, stiffness, true) +
+          run("[[node]]\nname = \"apex\"\nat = [0, " + number(apex_height) + "]\n" +
+              truss_bar("left", -1, 0, 1, false) + truss_bar("right", 1, 0, 1 + unequal, false) +
+              truss_bar("right-guy", 2, apex_height, stiffness, true) +
+              truss_bar("left-guy", -2, apex_height, stiffness, true) +
               "[[study]]\nname = \"press\"\nbody = \"apex\"\ncontrol = \"load\"\n"
               "direction = [0, -1]\nuntil = { apex.x = [-1.5, 1.5], apex.y = [-1.6, 1.4] }\n")
               .of("press");

@@ -1,0 +1,85 @@
+#include "critical_bends.hpp"
+
+#include <cmath>
+
+#include "critical_pieces.hpp"
+#include "springfold/continuation/numerics.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+using continuation::CriticalCurve;
+using continuation::CriticalPoint;
+using continuation::CriticalStart;
+
+/// Points are taken nearer and nearer, by this factor, so often.
+constexpr int rounds = 12;
+constexpr double nearer = 0.5;
+/// Where slopes jump their difference stays; of a smooth curve it falls like the distance.
+constexpr double stays = 0.25;
+
+Vector state_of(const CriticalPoint& point) {
+  Vector state(point.x.size() + 1);
+  state << point.x, point.lambda;
+  return state;
+}
+
+std::optional<CriticalPoint> point_at(const CaseCurves& curves, CriticalStart start,
+                                      const CriticalPoint& guess, double mu) {
+  start.x = guess.x;
+  start.lambda = guess.lambda;
+  start.mu = mu;
+  return polish_critical(curves.family(), start);
+}
+
+/// Two points of a curve, a step apart, and what its state changes by from the first to the second.
+struct Chord {
+  CriticalPoint from{}, to{};
+  Vector change{};
+};
+
+std::optional<Chord> chord(const CaseCurves& curves, const CriticalStart& start,
+                           const CriticalPoint& guess, double mu, double step) {
+  const auto from = point_at(curves, start, guess, mu);
+  const auto to = from ? point_at(curves, start, *from, mu + step) : std::nullopt;
+  if (!to) return std::nullopt;
+  return Chord{*from, *to, state_of(*to) - state_of(*from)};
+}
+
+}  // namespace
+
+bool is_on_piece(const CaseCurves& curves, const CriticalStart& start, const CriticalPoint& point) {
+  constexpr double zero = continuation::promised_place;
+  const Member* member = curves.equations_at(point.mu);
+  Vector g;
+  if (member == nullptr || !member->problem->switches(point.x, point.lambda, g)) return false;
+  for (Index j = 0; j < g.size(); ++j)
+    if (g[j] * start.piece[static_cast<std::size_t>(j)] < -zero) return false;
+  return true;
+}
+
+std::optional<double> bend_near_end(const CaseCurves& curves, const CriticalStart& start,
+                                    const CriticalCurve& curve) {
+  if (curve.points.empty() || curve.points.back().dmu == 0) return std::nullopt;
+  CriticalPoint guess = curve.points.back();
+  double place = guess.mu, step = std::copysign(2 * step_of_family, guess.dmu), first = 0;
+  for (int k = 0; k < rounds; ++k, step *= nearer) {
+    // Both chords lead towards the place.
+    const auto before = chord(curves, start, guess, place - 2 * step, step);
+    const auto behind =
+        before ? chord(curves, start, before->to, place + 2 * step, -step) : std::nullopt;
+    if (!behind || !is_on_piece(curves, start, behind->to)) return std::nullopt;
+    // before->to + t change = behind->to + (2 - t) change behind it, t in steps
+    const Vector jump = before->change + behind->change,
+                 gap = state_of(behind->to) - state_of(before->to);
+    const double t = jump.dot(gap + 2 * behind->change) / jump.squaredNorm();
+    const double slopes = jump.norm() / std::abs(step);
+    if (k == 0) first = slopes;
+    if (!(t > 0 && t < 2) || !(slopes > stays * first)) return std::nullopt;
+    place += (t - 1) * step;
+    guess = before->to;
+  }
+  return place;
+}
+
+}  // namespace springfold::analysis

@@ -1,0 +1,90 @@
+// Limit points that meet the points of a measured law, where its curvature jumps and nothing switches: over a parameter
+// they go on, with a kink.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "case_runs.hpp"
+#include "springfold/analysis/design.hpp"
+
+namespace springfold::io {
+namespace {
+
+using analysis::StudyResult;
+
+const char* const measured_link = R"toml(
+[parameters]
+c = 0.1
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [1, 0]
+[[chain]]
+name = "c"
+elements = [
+  { joint = "revolute", axis = "z", name = "h", role = "preloaded", spring = { law = "table", points = [[-0.5, -0.5], [0, 0], [0.1, 0.1], [0.2, 0.19], [0.3, 0.22], [0.4, 0.29], [0.5, 0.33], [0.8, 0.5]], free = "c" } },
+  { rigid = [1, 0] },
+]
+)toml";
+
+std::string table_study(const std::string& kind, const std::string& rest) {
+  return "[[study]]\nname = \"" + kind + "\"\nkind = \"" + kind +
+         "\"\ncontrol = \"load\"\ndirection = [-1, 0]\n"
+         "until = { lambda = [-0.01, 5], c.h = [-2, 2] }\n" +
+         rest + "\n";
+}
+
+TEST(BendingLaws, AreFollowedThroughTheirPoints) {
+  const StudyResult result =
+      run(measured_link +
+          table_study("critical_load",
+                      "critical_load = { of = \"loss_of_stability\", parameter = \"c\", range = "
+                      "[0.01, 0.3], values = 25 }"))
+          .of("critical_load");
+  EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+  ASSERT_EQ(result.branches.size(), 1u);
+  const auto& rows = result.branches[0].samples;
+  EXPECT_NEAR(rows.front().values.back(), 0.01, 1e-12);
+  EXPECT_NEAR(rows.back().values.back(), 0.3, 1e-12);
+  const auto load = column(result, "lambda");
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    EXPECT_LT(rows[i].values[load], rows[i - 1].values[load]) << "at c = " << rows[i].values.back();
+}
+
+TEST(BendingLaws, KeepLimitPointsThatNoValueRemoves) {
+  const StudyResult result =
+      run(measured_link +
+          table_study("threshold",
+                      "threshold = { of = \"loss_of_stability\", parameter = \"c\", range = "
+                      "[0.01, 0.3] }"))
+          .of("threshold");
+  EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+  ASSERT_TRUE(result.threshold);
+  EXPECT_FALSE(result.threshold->found);
+}
+
+/// Two bars of stiffness 1 under a weight: from a height of 0.4402 down it falls through without any load, and from there
+/// no load has anything to lose.
+TEST(DesignOfACollapse, IsToldWhereTheStartOfTheCaseVanishesOnTheWay) {
+  std::string text = "[parameters]\nh = 1\nw = 0.03\n[[node]]\nname = \"t\"\nat = [0, \"h\"]\n";
+  for (const std::string side : {"-1", "1"}) {
+    const std::string foot = "foot" + std::string(side == "1" ? "r" : "l");
+    text += "[[node]]\nname = \"" + foot + "\"\nat = [" + side +
+            ", 0]\nfixed = true\n[[bar]]\nfrom = \"" + foot +
+            "\"\nto = \"t\"\nstiffness = 1\nfree = \"sqrt(1 + h^2)\"\n";
+  }
+  const StudyResult result =
+      run(text +
+          "[[load]]\non = \"t\"\nforce = [0, \"-w\"]\n[[study]]\nname = \"d\"\nkind = "
+          "\"design\"\nbody "
+          "= \"t\"\ncontrol = \"load\"\ndirection = [0, -1]\nuntil = { lambda = [-0.01, 6], t.y = "
+          "[-3, 3], t.x = [-3, 3] }\ndesign = { parameters = { h = [0.2, 1.2] }, critical_load = { "
+          "at_least = 1, of = \"loss_of_stability\" } }\n")
+          .of("d");
+  ASSERT_TRUE(result.design);
+  const bool is_met = result.design->status == analysis::DesignStatus::met;
+  EXPECT_TRUE(!is_met || !result.doubts.empty()) << result.design->message;
+}
+
+}  // namespace
+}  // namespace springfold::io
