@@ -150,8 +150,8 @@ class Evaluator {
   std::optional<RestingIndex> resting_index_of(QuantityDefinition::Kind kind,
                                                const continuation::CurvePoint& point,
                                                const KnownSwitches& known = {}) const;
-  /// By one of the indices, as rows have it: how many modes are unstable. Where springs rest all pieces decide together: 0
-  /// or at least 1. @returns nothing where that is not known
+  /// By one of the indices, as rows have it: how many modes are unstable. Where springs rest all pieces decide
+  /// together: 0 or at least 1. @returns nothing where that is not known
   std::optional<Index> unstable_modes(const QuantityDefinition& index,
                                       const continuation::CurvePoint& point) const;
 

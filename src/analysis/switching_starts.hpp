@@ -21,8 +21,9 @@ std::vector<continuation::CriticalStart> starts_at_switching(const CaseCurves& c
 
 std::string several_switch(const SpecialPoint& point);
 
-/// The way through this special point along which its springs rest, before it and behind it: none of them switches there,
-/// the eigenvalue of a piece vanishes. Where branches meet it need not be the path's own. Nothing: there is none.
+/// The way through this special point along which its springs rest, before it and behind it: none of them switches
+/// there, the eigenvalue of a piece vanishes. Where branches meet it need not be the path's own. Nothing: there is
+/// none.
 std::optional<continuation::CurvePoint> way_at_rest(const Member& member,
                                                     const SpecialPoint& point);
 
@@ -32,8 +33,8 @@ std::vector<Index> switches_at_rest(const Member& member, const SpecialPoint& po
 /// Where springs rest: the pieces in which half-branches leave or arrive, or the path's own where none does.
 std::vector<Piece> pieces_at_rest(const Member& member, const SpecialPoint& point);
 
-/// A point at which springs rest is a branch point of the piece of its half-branch, or of the path's own piece
-/// where there is none, as long as the parameter lets them rest. Several pieces count as one where the parameter moves them
+/// A point at which springs rest is a branch point of the piece of its half-branch, or of the path's own piece where
+/// there is none, as long as the parameter lets them rest. Several pieces count as one where the parameter moves them
 /// alike, as mirror images do. Nothing: `why`.
 std::optional<continuation::CriticalStart> start_at_rest(const CaseCurves& curves,
                                                          const Member& member,

@@ -63,8 +63,8 @@ TEST(BendingLaws, KeepLimitPointsThatNoValueRemoves) {
   EXPECT_FALSE(result.threshold->found);
 }
 
-/// Two bars of stiffness 1 under a weight: from a height of 0.4402 down it falls through without any load, and from there
-/// no load has anything to lose.
+/// Two bars of stiffness 1 under a weight: from a height of 0.4402 down it falls through without any load, and from
+/// there no load has anything to lose.
 TEST(DesignOfACollapse, IsToldWhereTheStartOfTheCaseVanishesOnTheWay) {
   std::string text = "[parameters]\nh = 1\nw = 0.03\n[[node]]\nname = \"t\"\nat = [0, \"h\"]\n";
   for (const std::string side : {"-1", "1"}) {

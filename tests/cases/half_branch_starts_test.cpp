@@ -30,8 +30,8 @@ std::size_t count_of(const analysis::Branch& branch, EventKind kind) {
   return found;
 }
 
-/// A plate on two legs with springs in their hinges, pressed down by a driven displacement: it sways to either side from
-/// the branch point on, and the force grows along both ways.
+/// A plate on two legs with springs in their hinges, pressed down by a driven displacement: it sways to either side
+/// from the branch point on, and the force grows along both ways.
 TEST(HalfBranchStarts, OfAParallelGuideHaveNoExtremumOfTheForce) {
   const StudyResult result =
       run("[[body]]\nname = \"p\"\ntask_space = \"planar\"\npose = [0, 1, 0]\n" +
@@ -49,8 +49,8 @@ TEST(HalfBranchStarts, OfAParallelGuideHaveNoExtremumOfTheForce) {
   }
 }
 
-/// Two links side by side, each under the same load: what one does is nothing to the other. With k = 1 and 1.5 the first
-/// one falls at 1, the second one at 1.5, and both branches are stable.
+/// Two links side by side, each under the same load: what one does is nothing to the other. With k = 1 and 1.5 the
+/// first one falls at 1, the second one at 1.5, and both branches are stable.
 TEST(HalfBranchStarts, OfTwoLinksSideBySideHaveNoChangeOfStability) {
   const auto link = [](const std::string& name, const std::string& x, const std::string& k) {
     return "[[body]]\nname = \"" + name + "\"\ntask_space = \"xy\"\npose = [" + x +

@@ -118,7 +118,7 @@ TEST(OffThePath, LossesUnderDeadLoadThatNoCurveFollowsAreSaid) {
   EXPECT_THAT(result.doubts.front(), HasSubstr("SC1"));
 }
 
-TEST(OffThePath, FirstCriticalLoadsAreKnownOnBothSidesOfAKinkOfTheCase) {
+TEST(OffThePath, FirstCriticalLoadsGoOnOverAKinkOfTheCase) {
   // A guided truss over a post that is stiffer beyond the length b. Where its free length f passes b the law itself has
   // a kink in f: below the force is k1 (u - f), above k2 (b - f) + k1 (u - b).
   const auto result = run(R"toml(
@@ -159,7 +159,8 @@ critical_load = { of = "loss_of_stability", parameter = "f", range = [0.5, 0.8],
 )toml")
                           .of("s");
   const double L0 = std::sqrt(1.25), L = std::cbrt(L0 / 1.025), y = std::sqrt(L * L - 1);
-  ASSERT_GE(result.branches.size(), 2U);
+  EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+  ASSERT_EQ(result.branches.size(), 1U);
   for (const analysis::Branch& branch : result.branches)
     for (const auto& sample : branch.samples) {
       const double f = sample.values.back(), u = y + 0.2;
@@ -167,11 +168,7 @@ critical_load = { of = "loss_of_stability", parameter = "f", range = [0.5, 0.8],
       EXPECT_NEAR(sample.values[1], 2 * (L0 / L - 1) * y - post, 1e-10) << f;
     }
   EXPECT_NEAR(result.branches[0].samples.front().values.back(), 0.5, 1e-12);
-  EXPECT_NEAR(result.branches[0].samples.back().values.back(), 0.78, 1e-3);
-  EXPECT_NEAR(result.branches.back().samples.front().values.back(), 0.78, 1e-3);
-  EXPECT_NEAR(result.branches.back().samples.back().values.back(), 0.8, 1e-12);
-  ASSERT_FALSE(result.doubts.empty());
-  EXPECT_THAT(result.doubts.front(), HasSubstr("at f = 0.78"));
+  EXPECT_NEAR(result.branches[0].samples.back().values.back(), 0.8, 1e-12);
 }
 
 }  // namespace

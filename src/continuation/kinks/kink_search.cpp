@@ -238,8 +238,9 @@ Crossing crossing_right_ahead(const SwitchOnStep& f, const Workspace::Switches& 
 Crossing crossing_on_return(
     const SwitchOnStep& f, double value, const CurvePoint& to,
     const std::pair<const Workspace::Switches&, const Workspace::Switches&>& at) {
-  constexpr int rounds = 4;
-  constexpr double alike = 0.25;
+  constexpr int rounds = 4;       // each takes the rates of nearer points
+  constexpr double alike = 0.25;  // what a cubic term may make of them
+  if (f.walker.problem.structured()) return {.clear = false};
   const double rate = f.side * sure_rate(f.walker, at.first, f.j, f.from);
   double length = f.h, back = f.side * sure_rate(f.walker, at.second, f.j, to);
   for (int k = 0; k < rounds && rate > 0 && back < 0; ++k) {
@@ -253,7 +254,7 @@ Crossing crossing_on_return(
     if (!(back < 0) || std::abs(back + rate) > alike * rate) continue;
     auto place = place_on_surface(f.walker, f.from, *near, f.j);
     if (!place || std::abs(place->s - f.from.s - length) > alike * length) break;
-    return {.located = Located{std::move(*place), 0, 2 * length}};
+    return {.located = Located{std::move(*place), 0, std::min(2 * length, f.h)}};
   }
   return {.clear = false};
 }
