@@ -254,7 +254,8 @@ Crossing crossing_on_return(
     if (!(back < 0) || std::abs(back + rate) > alike * rate) continue;
     auto place = place_on_surface(f.walker, f.from, *near, f.j);
     if (!place || std::abs(place->s - f.from.s - length) > alike * length) break;
-    return {.located = Located{std::move(*place), 0, std::min(2 * length, f.h)}};
+    const double after = std::min((1 + alike) * length, f.h);
+    return {.located = Located{std::move(*place), (1 - alike) * length, after}};
   }
   return {.clear = false};
 }
