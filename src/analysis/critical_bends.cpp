@@ -12,12 +12,6 @@ using continuation::CriticalCurve;
 using continuation::CriticalPoint;
 using continuation::CriticalStart;
 
-/// Points are taken nearer and nearer, by this factor, so often.
-constexpr int rounds = 12;
-constexpr double nearer = 0.5;
-/// Where slopes jump their difference stays; of a smooth curve it falls like the distance.
-constexpr double stays = 0.25;
-
 Vector state_of(const CriticalPoint& point) {
   Vector state(point.x.size() + 1);
   state << point.x, point.lambda;
@@ -60,10 +54,14 @@ bool is_on_piece(const CaseCurves& curves, const CriticalStart& start, const Cri
 
 std::optional<double> bend_near_end(const CaseCurves& curves, const CriticalStart& start,
                                     const CriticalCurve& curve) {
+  // Points are taken nearer and nearer, so often. Where slopes jump their difference stays; of a smooth curve it falls
+  // like the distance.
+  constexpr int halvings = 12;
+  constexpr double stays = 0.25;
   if (curve.points.empty() || curve.points.back().dmu == 0) return std::nullopt;
   CriticalPoint guess = curve.points.back();
   double place = guess.mu, step = std::copysign(2 * step_of_family, guess.dmu), first = 0;
-  for (int k = 0; k < rounds; ++k, step *= nearer) {
+  for (int k = 0; k < halvings; ++k, step /= 2) {
     // Both chords lead towards the place.
     const auto before = chord(curves, start, guess, place - 2 * step, step);
     const auto behind =
