@@ -27,6 +27,9 @@ constexpr int own_tag = std::numeric_limits<int>::min();
 /// Of one curve; one that has more goes to and fro between two states.
 constexpr int most_kinks = 20;
 
+/// Of one curve: those of tables with many points, to and fro.
+constexpr int most_bends = 1000;
+
 /// Of the path's start at this value of the parameter; empty where there is none, and where nothing switches.
 Piece piece_at(const CaseCurves& curves, double mu) {
   const Member* member = curves.at(mu);
@@ -43,11 +46,36 @@ CriticalPoint on_line(const CriticalPoint& from, const CriticalPoint& slope, dou
   return guess;
 }
 
-/// A curve up to just before a kink, or to its end.
+/// What it is that two points of a kind merge at, where their curves leave a bend to the same side.
+continuation::Degeneracy merging(continuation::CriticalKind kind) {
+  using continuation::CriticalKind;
+  using continuation::Degeneracy;
+  switch (kind) {
+    case CriticalKind::limit_point:
+      return Degeneracy::cusp;
+    case CriticalKind::branch_point:
+      return Degeneracy::branch_points_merge;
+    case CriticalKind::surface:
+      return Degeneracy::touches_surface;
+    case CriticalKind::zero:
+      return Degeneracy::turn;
+  }
+  return Degeneracy::turn;
+}
+
+/// A curve up to just before a kink, to a bend of a law, or to its end.
 struct Stretch {
   CriticalCurve curve{};
   std::optional<double> kink{};  ///< the parameter's value there
+  bool bends = false;            ///< a law does, at the last point
+
+  bool goes_on() const { return kink || bends; }
 };
+
+/// Did it leave its start?
+bool has_left(const Stretch& stretch) {
+  return stretch.curve.points.size() > 1 || !stretch.curve.hits.empty() || stretch.goes_on();
+}
 
 class Follower {
  public:
@@ -57,12 +85,27 @@ class Follower {
            const std::vector<CriticalEvent>& events, const continuation::TraceOptions& options,
            const Observer& observer, const continuation::FurtherPoints& further)
       : curves_{curves},
+        laws_{curves},
         start_{start},
         events_{events},
         options_{options},
         observer_{observer},
         further_{further} {}
 
+  /// The whole curve, to one side.
+  CriticalCurve follow(bool growing) {
+    laws_.hold_at({.x = start_.x, .lambda = start_.lambda, .mu = start_.mu});
+    stretch_ = to_kink(start_, growing);
+    const bool is_stuck = stretch_.curve.stop == continuation::StopReason::step_too_small &&
+                          stretch_.curve.points.size() < 2 && !stretch_.goes_on();
+    if (is_stuck)
+      if (auto found = beside(start_, growing)) stretch_ = std::move(*found);
+    while (stretch_.goes_on() && !stretch_.curve.points.empty())
+      if (!(stretch_.bends ? pass_bend(growing) : pass_kink())) break;
+    return std::move(stretch_.curve);
+  }
+
+ private:
   /// Steps cross kinks that are weak, or crawl before them: at accepted points it is asked on which piece the start is
   /// there, and as far ahead as differences reach.
   Stretch to_kink(const CriticalStart& from, bool growing) const {
@@ -82,35 +125,54 @@ class Follower {
       if (watches && !crossed && differ(p.mu, ahead)) crossed = ahead;
       return !crossed && (!observer_ || observer_(p));
     };
-    Stretch found{
-        follow_critical(curves_.family(), from, growing, events_, options_, watch, further_)};
+    Stretch found{follow_critical(laws_.family(), from, growing, all_events(), options_, watch,
+                                  further_)};
     if (crossed)
       end_before(*crossed, last, found);
     else if (found.curve.stop == continuation::StopReason::step_too_small)
       found.kink = kink_near_end(found.curve);
-    if (crossed || found.kink || found.curve.stop != continuation::StopReason::step_too_small)
-      return found;
-    found.kink = bend_near_end(curves_, start_, found.curve);
+    else
+      take_bend(found);
     return found;
+  }
+
+  std::vector<CriticalEvent> all_events() const {
+    std::vector<CriticalEvent> events = laws_.ends();
+    events.insert(events.begin(), events_.begin(), events_.end());
+    return events;
+  }
+
+  /// A curve that has ended on a bend of a law has its last point there.
+  static void take_bend(Stretch& stretch) {
+    CriticalCurve& curve = stretch.curve;
+    if (curve.hits.empty() || !ContinuedLaws::is_end(curve.hits.back())) return;
+    CriticalPoint end = std::move(curve.hits.back().point);
+    curve.hits.pop_back();
+    // Laws that are alike meet theirs together.
+    while (!curve.hits.empty() && ContinuedLaws::is_end(curve.hits.back())) curve.hits.pop_back();
+    if (curve.points.empty() || curve.points.back().s < end.s)
+      curve.points.push_back(std::move(end));
+    stretch.bends = true;
   }
 
   /// From a start at which the curve itself has a kink, and nothing leaves along its tangent: an extremum of a law with
   /// a kink in its slope lies just there. A little farther on the curve is found again, if its points lie in one
   /// direction from there.
-  std::optional<Stretch> beside(const CriticalStart& from, bool growing) const {
+  std::optional<Stretch> beside(const CriticalStart& from, bool growing) {
     constexpr double wider[] = {1, 4, 16}, twice = 2, least = 1.5, most = 2.5;
     const auto point = polish_critical(curves_.family(), from);
     if (!point) return std::nullopt;
     for (const double times : wider) {
       const double gap = (growing ? times : -times) * beside_kink;
-      const auto first = point_at(*point, point->mu + gap),
-                 second = point_at(*point, point->mu + twice * gap);
+      const auto first = point_at(curves_, start_, *point, point->mu + gap),
+                 second = point_at(curves_, start_, *point, point->mu + twice * gap);
       if (!first || !second || !is_on_piece(curves_, from, *first)) continue;
       const double grown = distance(*second, *point) / distance(*first, *point);
       if (!(grown > least && grown < most)) continue;
+      laws_.hold_at(*first);
       auto next = going_on(*first, growing);
       if (!next) continue;
-      Stretch found{.kink = next->kink};
+      Stretch found{.kink = next->kink, .bends = next->bends};
       found.curve.points = {*point};
       CriticalPoint behind = next->curve.points.front();
       behind.s = distance(behind, *point);
@@ -121,36 +183,93 @@ class Follower {
     return std::nullopt;
   }
 
+  /// Says why the curve ends here, which it does until it goes on.
+  void end_here(const std::string& what) {
+    stretch_.curve.stop = continuation::StopReason::step_too_small;
+    stretch_.curve.stop_detail = "the curve could not be followed over " + what;
+  }
+
+  /// Leads the curve over the kink at its end. @returns false where it cannot be followed farther
+  bool pass_kink() {
+    CriticalCurve& curve = stretch_.curve;
+    const CriticalPoint last = curve.points.back();
+    end_here(curves_.name() + " = " + rounded(*stretch_.kink * curves_.scale()) +
+             ", where a spring switches at the start");
+    if (last.dmu == 0 || ++kinks_ > most_kinks) return false;
+    const auto kink = point_near(curves_, start_, on_line(last, last, *stretch_.kink), last);
+    if (!kink || !is_on_piece(curves_, start_, *kink) || comes_round(*kink)) return false;
+    auto next = from_kink(*kink, last);
+    if (!next || !is_on_piece(curves_, start_, next->curve.points.front())) return false;
+    CriticalPoint first = next->curve.points.front();
+    first.s = kink->s + distance(first, *kink);
+    if (close_gap(curves_, start_, events_, *kink, curve) ||
+        close_gap(curves_, start_, events_, first, curve))
+      return false;
+    go_on(std::move(*next));
+    return true;
+  }
+
+  /// Leads the curve over the bend of a law at its end, where the law's next part has the same point: on, or back where
+  /// the curves of both parts lie on one side of the parameter. @returns false where it cannot be followed farther
+  bool pass_bend(bool growing) {
+    CriticalCurve& curve = stretch_.curve;
+    const CriticalPoint bend = curve.points.back();
+    end_here("the bend of a spring's law at " + curves_.name() + " = " +
+             rounded(bend.mu * curves_.scale()));
+    const bool grows = bend.dmu != 0 ? bend.dmu > 0 : growing;
+    if (++bends_ > most_bends || comes_round(bend) || !laws_.cross_at(bend)) return false;
+    for (const bool way : {grows, !grows}) {
+      auto next = going_on(bend, way);
+      const bool stays = !next || (next->bends && next->curve.points.size() < 2);
+      if (stays) continue;
+      const double rise = next->curve.points.front().dlambda;
+      if (way != grows)
+        curve.hits.push_back({.kind = merging(start_.kind), .point = bend});
+      else if (rise * bend.dlambda < 0)
+        curve.hits.push_back({.kind = continuation::Degeneracy::extremum, .point = bend});
+      go_on(std::move(*next));
+      return true;
+    }
+    return false;
+  }
+
+  void go_on(Stretch next) {
+    append(std::move(next.curve), stretch_.curve);
+    stretch_.kink = next.kink;
+    stretch_.bends = next.bends;
+  }
+
+  /// Has the curve passed this point before, in the same sense? It ends at its start then.
+  bool comes_round(const CriticalPoint& point) {
+    const auto is_here = [&](const CriticalPoint& other) {
+      return other.dmu * point.dmu > 0 && distance(other, point) <= continuation::told_apart;
+    };
+    if (std::any_of(passed_.begin(), passed_.end(), is_here)) {
+      end_at_start(passed_.front().s, stretch_.curve);
+      return true;
+    }
+    passed_.push_back(point);
+    return false;
+  }
+
   /// From the kink on, with its first point; nothing if the curve cannot be followed from there.
-  std::optional<Stretch> from_kink(const CriticalPoint& kink, const CriticalPoint& last) const {
+  std::optional<Stretch> from_kink(const CriticalPoint& kink, const CriticalPoint& last) {
     constexpr double wider[] = {1, 4, 16};
     for (const double times : wider) {
       const double gap = std::max(std::abs(kink.mu - last.mu), beside_kink) * times;
       const auto first = point_near(
           curves_, start_, on_line(kink, last, kink.mu + std::copysign(gap, last.dmu)), kink);
       if (!first) continue;
+      laws_.hold_at(*first);
       if (auto next = going_on(*first, last.dmu > 0)) return next;
     }
     return std::nullopt;
   }
 
- private:
-  std::optional<CriticalPoint> point_at(const CriticalPoint& guess, double mu) const {
-    CriticalStart start = start_;
-    start.x = guess.x;
-    start.lambda = guess.lambda;
-    start.mu = mu;
-    return polish_critical(curves_.family(), start);
-  }
-
   std::optional<Stretch> going_on(const CriticalPoint& first, bool growing) const {
-    CriticalStart start = start_;
-    start.x = first.x;
-    start.lambda = first.lambda;
-    start.mu = first.mu;
-    Stretch next = from_place(start, growing, curves_.start_enters_equations());
-    if (next.curve.points.size() < 2 && next.curve.hits.empty() && !next.kink) return std::nullopt;
-    return next;
+    Stretch next =
+        from_place(moved_to(start_, first), growing, curves_.start_enters_equations());
+    return has_left(next) ? std::optional(std::move(next)) : std::nullopt;
   }
 
   bool differ(double a, double b) const {
@@ -191,18 +310,14 @@ class Follower {
     if (!place) return;
     const double sense = crossed > last.mu ? 1 : -1, end = place->first - sense * beside_kink;
     if (sense * (end - last.mu) > 0) {
-      std::vector<CriticalEvent> events = events_;
+      std::vector<CriticalEvent> events = all_events();
       events.push_back({.name = "kink",
                         .value = [=](const CriticalPoint& p) { return sense * (p.mu - end); },
                         .action = continuation::EventAction::stop,
                         .of_place = true,
                         .tag = own_tag});
-      CriticalStart from = start_;
-      from.x = last.x;
-      from.lambda = last.lambda;
-      from.mu = last.mu;
-      CriticalCurve rest =
-          follow_critical(curves_.family(), from, sense > 0, events, options_, observer_, further_);
+      CriticalCurve rest = follow_critical(laws_.family(), moved_to(start_, last), sense > 0, events,
+                                           options_, observer_, further_);
       const bool reached = !rest.hits.empty() && rest.hits.back().tag == own_tag;
       if (reached) {
         rest.points.push_back(rest.hits.back().point);
@@ -212,6 +327,8 @@ class Follower {
       if (!reached) {
         if (curve.stop == continuation::StopReason::step_too_small)
           stretch.kink = kink_near_end(curve);
+        else
+          take_bend(stretch);
         return;
       }
     }
@@ -219,11 +336,15 @@ class Follower {
   }
 
   const CaseCurves& curves_;
+  ContinuedLaws laws_;
   const CriticalStart& start_;
   const std::vector<CriticalEvent>& events_;
   const continuation::TraceOptions& options_;
   const Observer& observer_;
   const continuation::FurtherPoints& further_;
+  Stretch stretch_{};                    ///< what has been followed
+  std::vector<CriticalPoint> passed_{};  ///< kinks and bends
+  int kinks_ = 0, bends_ = 0;
 };
 
 }  // namespace
@@ -249,59 +370,12 @@ std::optional<std::pair<double, std::string>> switching_start(const CaseCurves& 
   return std::pair{beyond, curves.base().problem->switch_name(differs)};
 }
 
-namespace {
-
-/// Leads the curve over the kink at its end. @returns false where it cannot be followed farther
-bool pass_kink(const CaseCurves& curves, const CriticalStart& start, const Follower& follower,
-               const std::vector<CriticalEvent>& events, std::vector<CriticalPoint>& passed,
-               Stretch& stretch) {
-  CriticalCurve& curve = stretch.curve;
-  const CriticalPoint last = curve.points.back();
-  // Until it goes on, the curve ends here.
-  curve.stop = continuation::StopReason::step_too_small;
-  curve.stop_detail = "the curve could not be followed over " + curves.name() + " = " +
-                      rounded(*stretch.kink * curves.scale()) +
-                      ", where a spring switches at the start or its law bends";
-  if (last.dmu == 0 || std::ssize(passed) == most_kinks) return false;
-  const auto kink = point_near(curves, start, on_line(last, last, *stretch.kink), last);
-  if (!kink || !is_on_piece(curves, start, *kink)) return false;
-  const auto is_kink = [&](const CriticalPoint& other) {
-    return other.dmu * last.dmu > 0 && distance(other, *kink) <= continuation::told_apart;
-  };
-  if (std::any_of(passed.begin(), passed.end(), is_kink)) {
-    end_at_start(passed.front().s, curve);
-    return false;
-  }
-  passed.push_back(*kink);
-  auto next = follower.from_kink(*kink, last);
-  if (!next || !is_on_piece(curves, start, next->curve.points.front())) return false;
-  CriticalPoint first = next->curve.points.front();
-  first.s = kink->s + distance(first, *kink);
-  if (close_gap(curves, start, events, *kink, curve) ||
-      close_gap(curves, start, events, first, curve))
-    return false;
-  append(std::move(next->curve), curve);
-  stretch.kink = next->kink;
-  return true;
-}
-
-}  // namespace
-
 CriticalCurve follow_over_kinks(const CaseCurves& curves, const CriticalStart& start, bool growing,
                                 const std::vector<CriticalEvent>& events,
                                 const continuation::TraceOptions& options,
                                 const std::function<bool(const CriticalPoint&)>& observer,
                                 const continuation::FurtherPoints& further) {
-  const Follower follower(curves, start, events, options, observer, further);
-  Stretch stretch = follower.to_kink(start, growing);
-  const bool is_stuck = stretch.curve.stop == continuation::StopReason::step_too_small &&
-                        stretch.curve.points.size() < 2 && !stretch.kink;
-  if (is_stuck)
-    if (auto beside = follower.beside(start, growing)) stretch = std::move(*beside);
-  std::vector<CriticalPoint> passed;
-  while (stretch.kink && !stretch.curve.points.empty())
-    if (!pass_kink(curves, start, follower, events, passed, stretch)) break;
-  return std::move(stretch.curve);
+  return Follower(curves, start, events, options, observer, further).follow(growing);
 }
 
 }  // namespace springfold::analysis

@@ -62,12 +62,32 @@ double distance(const CriticalPoint& a, const CriticalPoint& b) {
   return std::hypot((a.x - b.x).norm(), a.lambda - b.lambda, a.mu - b.mu);
 }
 
-std::optional<CriticalPoint> point_near(const CaseCurves& curves, CriticalStart start,
+CriticalStart moved_to(CriticalStart start, const CriticalPoint& point) {
+  start.x = point.x;
+  start.lambda = point.lambda;
+  start.mu = point.mu;
+  return start;
+}
+
+std::optional<CriticalPoint> point_at(const CaseCurves& curves, const CriticalStart& start,
+                                      CriticalPoint guess, double mu) {
+  guess.mu = mu;
+  return polish_critical(curves.family(), moved_to(start, guess));
+}
+
+bool is_on_piece(const CaseCurves& curves, const CriticalStart& start, const CriticalPoint& point) {
+  constexpr double zero = continuation::promised_place;
+  const Member* member = curves.equations_at(point.mu);
+  Vector g;
+  if (member == nullptr || !member->problem->switches(point.x, point.lambda, g)) return false;
+  for (Index j = 0; j < g.size(); ++j)
+    if (g[j] * start.piece[static_cast<std::size_t>(j)] < -zero) return false;
+  return true;
+}
+
+std::optional<CriticalPoint> point_near(const CaseCurves& curves, const CriticalStart& start,
                                         const CriticalPoint& guess, const CriticalPoint& from) {
-  start.x = guess.x;
-  start.lambda = guess.lambda;
-  start.mu = guess.mu;
-  auto point = polish_critical(curves.family(), start);
+  auto point = point_at(curves, start, guess, guess.mu);
   const double room = std::max(distance(guess, from), continuation::told_apart);
   if (!point || distance(*point, guess) > room) return std::nullopt;
   point->dx = from.dx;

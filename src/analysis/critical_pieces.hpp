@@ -11,10 +11,23 @@ namespace springfold::analysis {
 /// In all unknowns, lambda and the parameter, as the family scales them.
 double distance(const continuation::CriticalPoint& a, const continuation::CriticalPoint& b);
 
+/// The start with another point of its curve.
+continuation::CriticalStart moved_to(continuation::CriticalStart start,
+                                     const continuation::CriticalPoint& point);
+
+/// The point of the curve at this value of the parameter that Newton's method finds from the guess.
+std::optional<continuation::CriticalPoint> point_at(const CaseCurves& curves,
+                                                    const continuation::CriticalStart& start,
+                                                    continuation::CriticalPoint guess, double mu);
+
+/// Does no switch contradict the piece on which the point is followed? Those that are zero there do not.
+bool is_on_piece(const CaseCurves& curves, const continuation::CriticalStart& start,
+                 const continuation::CriticalPoint& point);
+
 /// The point of the curve at the guess's value of the parameter; nothing where Newton's method goes elsewhere.
 /// @param from  the point before, from which the guess was made
 std::optional<continuation::CriticalPoint> point_near(const CaseCurves& curves,
-                                                      continuation::CriticalStart start,
+                                                      const continuation::CriticalStart& start,
                                                       const continuation::CriticalPoint& guess,
                                                       const continuation::CriticalPoint& from);
 

@@ -20,31 +20,37 @@ Complex log_of_1_plus(const Complex& x) {
   return {std::log1p(x.real()), std::atan2(x.imag(), 1 + x.real())};  // |1 + x| to the second order
 }
 
+/// Below the range, within it, or above: -1, 0, 1.
+template <class S>
+int part_at(const DeformationRange& range, const S& u) {
+  const double at = real_part(u);
+  return at < range.low ? -1 : at > range.high ? 1 : 0;
+}
+
 /// Curves within a range that go on straight: `inside(u)` gives the jet there.
 template <class S, class Inside>
 Jet<S> with_ends(const DeformationRange& range, const S& u, const Inside& inside) {
-  const double at = real_part(u);
-  if (!(at < range.low) && !(at > range.high)) return inside(u);
-  const double end = at < range.low ? range.low : range.high;
+  const int part = range.held.value_or(part_at(range, u));
+  if (part == 0) return inside(u);
+  const double end = part < 0 ? range.low : range.high;
   const Jet<S> there = inside(S(end));
   return {there.value + there.slope * (u - end), there.slope, S(0)};
 }
 
-/// Energy of the straight part beyond an end, measured from there; 0 within the range.
+/// Energy of the straight part beyond an end, measured from there; 0 of the law itself.
 template <class S, class Inside>
-S beyond_ends(const DeformationRange& range, const S& u, const Inside& inside) {
-  const double at = real_part(u);
-  if (!(at < range.low) && !(at > range.high)) return S(0);
-  const double end = at < range.low ? range.low : range.high;
+S beyond_ends(const DeformationRange& range, int part, const S& u, const Inside& inside) {
+  if (part == 0) return S(0);
+  const double end = part < 0 ? range.low : range.high;
   const Jet<S> there = inside(S(end));
   const S d = u - end;
   return d * (there.value + 0.5 * there.slope * d);
 }
 
+/// u where the law itself holds, else the end behind which the part lies.
 template <class S>
-S within(const DeformationRange& range, const S& u) {
-  const double at = real_part(u);
-  return at < range.low ? S(range.low) : at > range.high ? S(range.high) : u;
+S within(const DeformationRange& range, int part, const S& u) {
+  return part < 0 ? S(range.low) : part > 0 ? S(range.high) : u;
 }
 
 template <class S>
@@ -74,8 +80,9 @@ S energy_at(const PolynomialSpring& s, const S& c) {
     return sum;
   };
   const S u = c - s.free, zero(0);
-  return raised(within(s.range, u)) - raised(within(s.range, zero)) +
-         beyond_ends(s.range, u, inside) - beyond_ends(s.range, zero, inside);
+  const int part = s.range.held.value_or(part_at(s.range, u)), none = part_at(s.range, zero);
+  return raised(within(s.range, part, u)) - raised(within(s.range, none, zero)) +
+         beyond_ends(s.range, part, u, inside) - beyond_ends(s.range, none, zero, inside);
 }
 
 template <class S>
@@ -88,10 +95,12 @@ Jet<S> torque_at(const FormulaSpring& s, const S& c) {
 
 double energy_at(const FormulaSpring& s, const double& c) {
   const auto inside = [&s](double u) { return evaluate(s.formula, u); };
-  const double u = (c - s.free) * s.coordinate_unit;
-  const double energy = integral([&](double v) { return inside(v).value; }, within(s.range, 0.0),
-                                 within(s.range, u)) +
-                        beyond_ends(s.range, u, inside) - beyond_ends(s.range, 0.0, inside);
+  const double u = (c - s.free) * s.coordinate_unit, zero = 0;
+  const int part = s.range.held.value_or(part_at(s.range, u)), none = part_at(s.range, zero);
+  const double energy =
+      integral([&](double v) { return inside(v).value; }, within(s.range, none, zero),
+               within(s.range, part, u)) +
+      beyond_ends(s.range, part, u, inside) - beyond_ends(s.range, none, zero, inside);
   return energy / (s.torque_unit * s.coordinate_unit);
 }
 
@@ -139,7 +148,8 @@ S energy_at(const PowerSpring& s, const S& c) {
   return s.force * s.depth / (m + 1) * power_of(mirrored ? S(-x) : x, m + 1);
 }
 
-/// The piece in which u lies, and u from where it begins. Left of all: the first one, straight.
+/// The piece in which u lies, and u from where it begins. Left of all: the first one, straight, but where it is the
+/// only one.
 template <class S>
 struct InPiece {
   const CubicPieces::Piece& piece;
@@ -154,7 +164,8 @@ InPiece<S> piece_at(const CubicPieces& s, const S& c) {
       std::upper_bound(s.pieces.begin(), s.pieces.end(), real_part(u),
                        [](double at, const CubicPieces::Piece& piece) { return at < piece.at; });
   const CubicPieces::Piece& piece = above == s.pieces.begin() ? *above : *(above - 1);
-  return {piece, u - piece.at, above == s.pieces.begin() ? 0.0 : 1.0};
+  const bool is_left = above == s.pieces.begin() && s.pieces.size() > 1;
+  return {piece, u - piece.at, is_left ? 0.0 : 1.0};
 }
 
 template <class S>
@@ -172,7 +183,53 @@ S energy_at(const CubicPieces& s, const S& c) {
   return p.energy + d * (p.value + d * (p.slope / 2 + d * (a / 3 + b * d / 4.0)));
 }
 
+std::vector<double> bends(const DeformationRange& range, double free, double unit) {
+  std::vector<double> at;
+  for (const double u : {range.low, range.high})
+    if (std::isfinite(u)) at.push_back(free + u / unit);
+  return at;
+}
+
+std::vector<double> bends_in(const PolynomialSpring& s) { return bends(s.range, s.free, 1); }
+std::vector<double> bends_in(const FormulaSpring& s) {
+  return bends(s.range, s.free, s.coordinate_unit);
+}
+std::vector<double> bends_in(const LogarithmicSpring&) { return {}; }
+std::vector<double> bends_in(const PowerSpring&) { return {}; }
+std::vector<double> bends_in(const CubicPieces& s) {
+  std::vector<double> at;
+  if (s.pieces.size() > 1)
+    for (const CubicPieces::Piece& piece : s.pieces) at.push_back(s.free + piece.at);
+  return at;
+}
+
+/// Curves with a range: of its ends only finite ones are bends.
+template <class Curve>
+SpringCurve part_within(Curve s, std::size_t part) {
+  const bool has_low = std::isfinite(s.range.low);
+  s.range.held = static_cast<int>(part) - (has_low ? 1 : 0);
+  return s;
+}
+
+SpringCurve part_in(const PolynomialSpring& s, std::size_t part) { return part_within(s, part); }
+SpringCurve part_in(const FormulaSpring& s, std::size_t part) { return part_within(s, part); }
+SpringCurve part_in(const LogarithmicSpring& s, std::size_t) { return s; }
+SpringCurve part_in(const PowerSpring& s, std::size_t) { return s; }
+SpringCurve part_in(const CubicPieces& s, std::size_t part) {
+  CubicPieces::Piece piece = s.pieces[part == 0 ? 0 : part - 1];
+  if (part == 0) piece.quadratic = piece.cubic = 0;
+  return CubicPieces{{piece}, s.free};
+}
+
 }  // namespace
+
+std::vector<double> bends_of(const SpringCurve& curve) {
+  return std::visit([](const auto& s) { return bends_in(s); }, curve);
+}
+
+SpringCurve part_of(const SpringCurve& curve, std::size_t part) {
+  return std::visit([part](const auto& s) { return part_in(s, part); }, curve);
+}
 
 template <class S>
 Jet<S> torque_of(const SpringCurve& curve, const S& c) {

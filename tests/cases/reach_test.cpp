@@ -1,4 +1,5 @@
 // Where a leg is stretched out a driven displacement has an end that no limit of the case names.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,6 +13,10 @@
 
 namespace springfold::io {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
 
 /// A 3-RRR platform: feet at the radius 0.5, plate of radius 0.12, links of 0.3, stiff drives and soft flexures.
 std::string platform() {
@@ -140,7 +145,8 @@ TEST(Reach, OfAParallelogramEndsBesideItsFlatPositionsInRowsThatAreEquilibria) {
   EXPECT_TRUE(complete(result));
   const auto& branch = result.branches.front();
   for (const auto& stop : {branch.backward, branch.forward})
-    EXPECT_EQ(stop.reason.rfind("end of the reach: ", 0), 0u) << stop.reason;
+    EXPECT_EQ(stop.reason.rfind("infinite forces: the closures of chains l, r lose rank", 0), 0u)
+        << stop.reason;
   const std::size_t rows = branch.samples.size();
   for (std::size_t row = 0; row < rows; ++row) {
     const double s = value(result, row, "l.s");
@@ -153,6 +159,44 @@ TEST(Reach, OfAParallelogramEndsBesideItsFlatPositionsInRowsThatAreEquilibria) {
   EXPECT_NEAR(value(result, rows - 1, "l.s"), std::numbers::pi, 1e-3);
   EXPECT_LT(value(result, 0, "l.Fx"), -1e3);
   EXPECT_GT(value(result, rows - 1, "l.Fx"), 1e3);
+}
+
+/// Four creases at 0, 70, 170 and 280 degrees, flat where all angles are zero.
+constexpr const char* vertex = R"toml(
+[[body]]
+name = "panel"
+task_space = "spatial"
+pose = [0, 0, 0, 0.965572589849, -0.084476655423, -0.046149807191]
+[[chain]]
+name = "a"
+elements = [
+  { joint = "revolute", axis = [1, 0, 0], name = "c1", role = "actuated", value = 1 },
+  { joint = "revolute", axis = ["cos(70*deg)", "sin(70*deg)", 0], name = "c2", role = "preloaded", initial = -0.0985, spring = { law = "linear", stiffness = 0.4, free = "-12*deg" } } ]
+[[chain]]
+name = "b"
+elements = [
+  { joint = "revolute", axis = ["cos(280*deg)", "sin(280*deg)", 0], name = "c4", role = "preloaded", initial = -0.0985, spring = { law = "linear", stiffness = 0.5, free = "36*deg" } },
+  { joint = "revolute", axis = ["cos(170*deg)", "sin(170*deg)", 0], name = "c3", role = "preloaded", initial = -1, spring = { law = "linear", stiffness = 0.9, free = "50*deg" } } ]
+[[study]]
+name = "fold"
+control = "actuator"
+actuators = { "a.c1" = 1 }
+until = { lambda = ["-70*deg", "60*deg"] }
+)toml";
+
+TEST(Reach, OfAFoldedVertexIsNotItsFlatStateBehindWhichItsCreasesGoOn) {
+  // Flat-foldable: tan(c2/2) = tan(c1/2) cos((a + b)/2)/cos((a - b)/2) with sectors a, b (Tachi 2009).
+  const auto result = run(vertex).of("fold");
+  EXPECT_TRUE(complete(result));
+  const auto& branch = result.branches.front();
+  EXPECT_THAT(branch.backward.reason, AllOf(HasSubstr("infinite forces"), HasSubstr("kinematic singularity"),
+                                            Not(HasSubstr("hardly move"))));
+  const double share = std::cos(85 * std::numbers::pi / 180) / std::cos(15 * std::numbers::pi / 180);
+  EXPECT_NEAR(value(result, 0, "a.c1.rho"), 0, 1e-8);
+  for (std::size_t row = 0; row < branch.samples.size(); ++row)
+    EXPECT_NEAR(std::tan(value(result, row, "a.c2") / 2),
+                -share * std::tan(value(result, row, "a.c1.rho") / 2), 1e-9)
+        << row;
 }
 
 /// A crank of 0.6 and a rod as long, folded where the slider stands in the crank's foot: x = 1.2 cos(a). There it has a

@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <limits>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace springfold::model {
 struct DeformationRange {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
+  /// Which part holds, wherever u is: -1 the straight one below, 0 the law itself, 1 the straight one above. None: that
+  /// in which u lies.
+  std::optional<int> held{};
 };
 
 /// torque = sum over i of coefficients[i] u^i.
@@ -52,7 +56,8 @@ struct PowerSpring {
   bool below = false;   ///< does contact begin below `from`?
 };
 
-/// Cubics between nodes, straight lines beyond the first and the last one: the compiled form of tables.
+/// Cubics between nodes, straight lines beyond the first and the last one: the compiled form of tables. One piece alone
+/// holds on both sides of where it begins.
 struct CubicPieces {
   struct Piece {
     double at = 0;                    ///< u where it begins
@@ -66,6 +71,14 @@ struct CubicPieces {
 
 using SpringCurve =
     std::variant<PolynomialSpring, FormulaSpring, LogarithmicSpring, PowerSpring, CubicPieces>;
+
+/// Coordinates at which the curve bends, increasing: its torque and slope go on there, its curvature jumps. Points of
+/// tables, ends of ranges.
+std::vector<double> bends_of(const SpringCurve& curve);
+
+/// The curve between two of its bends, gone on beyond both of them.
+/// @param part  its number: so many bends lie below it
+SpringCurve part_of(const SpringCurve& curve, std::size_t part);
 
 /// Torque, stiffness and the stiffness's derivative at the coordinate c. A power goes on beyond its
 /// first contact as an odd function. For S = double and std::complex<double>.
