@@ -214,7 +214,8 @@ std::optional<StretchedChains> stopped_drive(const PathProblem& problem, const E
       found.moves_on
           ? "the closures of " + chains +
                 " lose rank together here, a kinematic singularity: the joints can move on in more "
-                "ways than one, and what they transmit grows without bound; behind it another curve "
+                "ways than one, and what they transmit grows without bound; behind it another "
+                "curve "
                 "begins, from a start there"
           : "the joints of " + chains +
                 " hardly move any further what is driven, and the forces in them grow without "

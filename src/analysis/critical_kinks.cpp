@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "continued_laws.hpp"
 #include "critical_bends.hpp"
 #include "critical_pieces.hpp"
 #include "springfold/continuation/numerics.hpp"
@@ -125,14 +126,14 @@ class Follower {
       if (watches && !crossed && differ(p.mu, ahead)) crossed = ahead;
       return !crossed && (!observer_ || observer_(p));
     };
-    Stretch found{follow_critical(laws_.family(), from, growing, all_events(), options_, watch,
-                                  further_)};
+    Stretch found{
+        follow_critical(laws_.family(), from, growing, all_events(), options_, watch, further_)};
     if (crossed)
       end_before(*crossed, last, found);
-    else if (found.curve.stop == continuation::StopReason::step_too_small)
-      found.kink = kink_near_end(found.curve);
-    else
+    else if (found.curve.stop != continuation::StopReason::step_too_small)
       take_bend(found);
+    else if (found.kink = kink_near_end(found.curve); !found.kink)
+      found.kink = bend_near_end(curves_, start_, found.curve);
     return found;
   }
 
@@ -194,7 +195,7 @@ class Follower {
     CriticalCurve& curve = stretch_.curve;
     const CriticalPoint last = curve.points.back();
     end_here(curves_.name() + " = " + rounded(*stretch_.kink * curves_.scale()) +
-             ", where a spring switches at the start");
+             ", where a spring switches at the start or the case has a kink");
     if (last.dmu == 0 || ++kinks_ > most_kinks) return false;
     const auto kink = point_near(curves_, start_, on_line(last, last, *stretch_.kink), last);
     if (!kink || !is_on_piece(curves_, start_, *kink) || comes_round(*kink)) return false;
@@ -267,8 +268,7 @@ class Follower {
   }
 
   std::optional<Stretch> going_on(const CriticalPoint& first, bool growing) const {
-    Stretch next =
-        from_place(moved_to(start_, first), growing, curves_.start_enters_equations());
+    Stretch next = from_place(moved_to(start_, first), growing, curves_.start_enters_equations());
     return has_left(next) ? std::optional(std::move(next)) : std::nullopt;
   }
 
@@ -316,8 +316,8 @@ class Follower {
                         .action = continuation::EventAction::stop,
                         .of_place = true,
                         .tag = own_tag});
-      CriticalCurve rest = follow_critical(laws_.family(), moved_to(start_, last), sense > 0, events,
-                                           options_, observer_, further_);
+      CriticalCurve rest = follow_critical(laws_.family(), moved_to(start_, last), sense > 0,
+                                           events, options_, observer_, further_);
       const bool reached = !rest.hits.empty() && rest.hits.back().tag == own_tag;
       if (reached) {
         rest.points.push_back(rest.hits.back().point);

@@ -97,10 +97,10 @@ double energy_at(const FormulaSpring& s, const double& c) {
   const auto inside = [&s](double u) { return evaluate(s.formula, u); };
   const double u = (c - s.free) * s.coordinate_unit, zero = 0;
   const int part = s.range.held.value_or(part_at(s.range, u)), none = part_at(s.range, zero);
-  const double energy =
-      integral([&](double v) { return inside(v).value; }, within(s.range, none, zero),
-               within(s.range, part, u)) +
-      beyond_ends(s.range, part, u, inside) - beyond_ends(s.range, none, zero, inside);
+  const double energy = integral([&](double v) { return inside(v).value; },
+                                 within(s.range, none, zero), within(s.range, part, u)) +
+                        beyond_ends(s.range, part, u, inside) -
+                        beyond_ends(s.range, none, zero, inside);
   return energy / (s.torque_unit * s.coordinate_unit);
 }
 

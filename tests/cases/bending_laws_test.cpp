@@ -2,6 +2,7 @@
 // they go on, with a kink.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "case_runs.hpp"
@@ -61,6 +62,62 @@ TEST(BendingLaws, KeepLimitPointsThatNoValueRemoves) {
   EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
   ASSERT_TRUE(result.threshold);
   EXPECT_FALSE(result.threshold->found);
+}
+
+/// A bar on a hinge with torque T(u) = u - 2 u^3 up to u = 0.3 and straight beyond, u = angle - c: pressed along the
+/// axis it has limit points where tan(angle) = T/T', at the load sqrt(T^2 + T'^2). Up to 0.3 they lie at growing c,
+/// beyond at falling c again.
+const char* const softening_link = R"toml(
+[parameters]
+c = 0.1
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [1, 0]
+[[chain]]
+name = "c"
+elements = [
+  { joint = "revolute", axis = "z", name = "h", role = "preloaded", spring = { law = "polynomial", coefficients = [0, 1, 0, -2], range = [-0.3, 0.3], falling = true, free = "c" } },
+  { rigid = [1, 0] },
+]
+)toml";
+
+double torque_of_softening(double u) {
+  return u < 0.3 ? u - 2 * u * u * u : 0.246 + 0.46 * (u - 0.3);
+}
+double slope_of_softening(double u) { return u < 0.3 ? 1 - 6 * u * u : 0.46; }
+
+TEST(BendingLaws, MergeLimitPointsWhereTheirRangeEnds) {
+  const StudyResult result =
+      run(softening_link +
+          table_study("threshold",
+                      "threshold = { of = \"loss_of_stability\", parameter = \"c\", range = "
+                      "[0.05, 0.4] }"))
+          .of("threshold");
+  EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+  ASSERT_TRUE(result.threshold && result.threshold->found);
+  EXPECT_NEAR(result.threshold->value, std::atan(0.246 / 0.46) - 0.3, 1e-9);
+  EXPECT_EQ(result.threshold->decides, "cusp");
+}
+
+TEST(BendingLaws, LeadLimitPointsThereAndBackInOneCurve) {
+  const StudyResult result =
+      run(softening_link + table_study("force_deflection", "") +
+          table_study("critical_curve",
+                      "critical_curve = { of = \"LP1\", parameter = \"c\", range = [0.05, 0.4] }"))
+          .of("critical_curve");
+  EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+  const auto& rows = result.branches.at(0).samples;
+  int inside = 0, beyond = 0;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const double angle = value(result, row, "c.h"), u = angle - rows[row].values.back();
+    const double torque = torque_of_softening(u), slope = slope_of_softening(u);
+    ++(u < 0.3 ? inside : beyond);
+    EXPECT_NEAR(std::tan(angle), torque / slope, 1e-9) << u;
+    EXPECT_NEAR(value(result, row, "lambda"), std::hypot(torque, slope), 1e-9) << u;
+  }
+  EXPECT_GT(inside, 5);
+  EXPECT_GT(beyond, 5);
 }
 
 /// Two bars of stiffness 1 under a weight: from a height of 0.4402 down it falls through without any load, and from

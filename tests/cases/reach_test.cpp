@@ -189,9 +189,11 @@ TEST(Reach, OfAFoldedVertexIsNotItsFlatStateBehindWhichItsCreasesGoOn) {
   const auto result = run(vertex).of("fold");
   EXPECT_TRUE(complete(result));
   const auto& branch = result.branches.front();
-  EXPECT_THAT(branch.backward.reason, AllOf(HasSubstr("infinite forces"), HasSubstr("kinematic singularity"),
-                                            Not(HasSubstr("hardly move"))));
-  const double share = std::cos(85 * std::numbers::pi / 180) / std::cos(15 * std::numbers::pi / 180);
+  EXPECT_THAT(branch.backward.reason,
+              AllOf(HasSubstr("infinite forces"), HasSubstr("kinematic singularity"),
+                    Not(HasSubstr("hardly move"))));
+  const double share =
+      std::cos(85 * std::numbers::pi / 180) / std::cos(15 * std::numbers::pi / 180);
   EXPECT_NEAR(value(result, 0, "a.c1.rho"), 0, 1e-8);
   for (std::size_t row = 0; row < branch.samples.size(); ++row)
     EXPECT_NEAR(std::tan(value(result, row, "a.c2") / 2),
