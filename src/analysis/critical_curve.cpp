@@ -6,9 +6,11 @@
 #include "critical_kinks.hpp"
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
+#include "critical_starts.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/parameters/imperfection.hpp"
+#include "switching_starts.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -63,7 +65,8 @@ std::optional<Index> switch_at(const Member& member, const CriticalHit& hit) {
   return found;
 }
 
-/// How far lambda rises where the switch does, on one piece: its sign, positive or negative.
+/// How far lambda, or the force where that turns back, rises where the switch does, on one piece: its sign, positive or
+/// negative.
 double slope_across(const Member& member, const continuation::CriticalStart& p,
                     const Piece& piece) {
   continuation::Linearisation at;
@@ -78,7 +81,12 @@ double slope_across(const Member& member, const continuation::CriticalStart& p,
   J << at.dF_dx, at.dF_dlambda;
   const Vector t = jacobi_svd(J, SingularVectors::none, SingularVectors::full).V.col(n);
   const Index j = p.switching;
-  return t[n] * (dg_dx.row(j).dot(t.head(n)) + dg_dlambda[j] * t[n]);
+  std::optional<double> rate = t[n];
+  if (p.turns)
+    rate = p.turns({.x = p.x, .lambda = p.lambda, .tangent = {t.head(n), t[n]}, .piece = piece},
+                   member.mu);
+  return rate.value_or(std::nan("")) *
+         (dg_dx.row(j).dot(t.head(n)) + dg_dlambda[j] * t[n]);
 }
 
 bool ends_limit_corner(const CriticalHit& hit) {
@@ -101,16 +109,18 @@ void end_at_last_reversal(CriticalCurve& curve) {
 /// where it no longer does as limit points of the piece behind. Marked values go on as the same on the piece behind.
 class Beyond {
  public:
-  using ValueOn = std::function<continuation::StateFunction(const Piece&)>;
-
-  /// @param value_on  of a marked value
   /// @param pieces  that are followed, one per branch of the result
-  Beyond(const CaseCurves& curves, const Study& study, const Observer& observer, ValueOn value_on,
-         StudyResult& result, std::vector<FollowedCurve>& pieces)
+  Beyond(const CaseCurves& curves, const Study& study, const Observer& observer,
+         const CriticalOrigin& origin, StudyResult& result, std::vector<FollowedCurve>& pieces)
       : curves_{curves},
         study_{base_study(study)},
         observer_{observer},
-        value_on_{std::move(value_on)},
+        is_marked_{origin.point.kind == EventKind::user_value},
+        value_on_{[&](const Piece& piece) {
+          return marked_value_on(curves, *origin.member, origin.point, piece);
+        }},
+        of_force_{origin.point.kind == EventKind::limit_point &&
+                  pieces.front().start.kind == continuation::CriticalKind::zero},
         result_{result},
         pieces_{pieces} {}
 
@@ -154,9 +164,8 @@ class Beyond {
     next.mu = hit.point.mu;
     if (last.start.kind == continuation::CriticalKind::surface) {
       if (!ends_limit_corner(hit) || hit.kind == Degeneracy::touches_surface) return {};
-      next.kind = continuation::CriticalKind::limit_point;
       if (hit.kind == Degeneracy::corner_loses_reversal) next.piece = last.start.behind;
-      return {next};
+      return {of_piece(next, next.piece)};
     }
     const Member* member = curves_.equations_at(hit.point.mu);
     if (hit.kind != Degeneracy::fold_meets_activation || member == nullptr) return {};
@@ -167,16 +176,24 @@ class Beyond {
     next.behind = next.piece;
     auto& behind = next.behind[static_cast<std::size_t>(next.switching)];
     behind = static_cast<std::int8_t>(-behind);
-    if (last.start.kind == continuation::CriticalKind::zero) {
-      next.kind = continuation::CriticalKind::zero;
-      next.piece = next.behind;
-      next.value = value_on_(next.piece);
-      return {next};
-    }
-    continuation::CriticalStart same = next;
-    same.kind = continuation::CriticalKind::limit_point;
-    same.piece = next.behind;
+    const continuation::CriticalStart same = of_piece(next, next.behind);
+    if (is_marked_) return {same};
+    next.value = {};
+    if (of_force_) next.turns = force_turns(curves_);
     return {next, same};
+  }
+
+  /// The same kind of point that is not at a threshold.
+  continuation::CriticalStart of_piece(continuation::CriticalStart start, Piece piece) const {
+    start.piece = std::move(piece);
+    start.turns = {};
+    start.kind = is_marked_ || of_force_ ? continuation::CriticalKind::zero
+                                         : continuation::CriticalKind::limit_point;
+    if (is_marked_) start.value = value_on_(start.piece);
+    if (of_force_)
+      start.value = force_rate_of(
+          curves_, {.x = start.x, .lambda = start.lambda, .tangent = {}, .piece = start.piece});
+    return start;
   }
 
   /// The way on which there are limit points. @returns false where there is none
@@ -216,7 +233,8 @@ class Beyond {
     const continuation::FurtherPoints further{.spacing = study_.trace.spacing,
                                               .most = most_rows(curves_)};
     FollowedCurve piece{.start = next, .of = last.of};
-    if (next.kind == continuation::CriticalKind::limit_point) piece.of = EventKind::limit_point;
+    if (next.kind != continuation::CriticalKind::surface && !is_marked_)
+      piece.of = EventKind::limit_point;
     CriticalCurve& curve = piece.growing;
     curve = follow_over_kinks(curves_, next, growing, events, critical_options(study_), observe,
                               further);
@@ -237,9 +255,9 @@ class Beyond {
     piece.falling.points.assign(
         curve.points.begin(), curve.points.empty() ? curve.points.end() : curve.points.begin() + 1);
     piece.falling.stop = continuation::StopReason::event;
-    piece.falling.stop_detail = "goes on from: " + (next.kind == continuation::CriticalKind::zero
-                                                        ? std::string{"a spring switches here"}
-                                                        : last.growing.stop_detail);
+    piece.falling.stop_detail =
+        "goes on from: " +
+        (is_marked_ ? std::string{"a spring switches here"} : last.growing.stop_detail);
     for (std::string& doubt : doubts_of(curves_, study_, piece))
       result_.doubts.push_back(std::move(doubt));
     result_.branches.push_back(rows_of(curves_, piece));
@@ -250,7 +268,9 @@ class Beyond {
   const CaseCurves& curves_;
   Study study_;
   const Observer& observer_;
-  ValueOn value_on_;
+  const bool is_marked_;  ///< value_on_: what is zero there
+  const std::function<continuation::StateFunction(const Piece&)> value_on_;
+  const bool of_force_;  ///< limit points of the force, not of lambda
   StudyResult& result_;
   std::vector<FollowedCurve>& pieces_;
 };
@@ -261,13 +281,12 @@ void go_on_beyond(const CaseCurves& curves, const Study& study, const CriticalOr
                   const Observer& observer, StudyResult& result,
                   std::vector<FollowedCurve>& pieces) {
   const FollowedCurve followed = pieces.front();
-  const bool is_marked = followed.start.kind == continuation::CriticalKind::zero &&
-                         origin.point.kind == EventKind::user_value;
-  if (followed.start.kind != continuation::CriticalKind::limit_point && !is_marked) return;
-  const auto value_on = [&](const Piece& piece) {
-    return marked_value_on(curves, *origin.member, origin.point, piece);
-  };
-  Beyond beyond(curves, study, observer, value_on, result, pieces);
+  const bool is_followed = origin.point.kind == EventKind::user_value ||
+                           origin.point.kind == EventKind::limit_point;
+  if (followed.start.kind != continuation::CriticalKind::limit_point &&
+      !(followed.start.kind == continuation::CriticalKind::zero && is_followed))
+    return;
+  Beyond beyond(curves, study, observer, origin, result, pieces);
   const auto& other = followed.falling.hits;
   if (!beyond.follow(followed.start, followed.growing, other.empty() ? nullptr : &other.back()))
     beyond.follow(followed.start, followed.falling, nullptr);

@@ -4,6 +4,7 @@
 
 #include "cpu_time.hpp"
 #include "critical_runs.hpp"
+#include "critical_starts.hpp"
 #include "outside_range.hpp"
 #include "springfold/core/number_text.hpp"
 

@@ -7,6 +7,7 @@
 
 #include "analysis/undefined.hpp"
 #include "critical_rows.hpp"
+#include "critical_starts.hpp"
 #include "cut_curve.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/number_text.hpp"

@@ -48,13 +48,17 @@ double lambda_unit(const Study& study, const Setup& setup, const CurvePoint& sta
   return within_range(study, setup, std::max(unit, std::abs(start.lambda) / largest_lambda));
 }
 
-/// Does the response say nothing of lambda, which then keeps its natural unit? Where a body without chains
-/// is driven, lambda is the only way that there need be, as along an axis of symmetry. And what
-/// answers to a parameter by rounding alone does not answer.
-bool is_unanswered(const PathProblem& problem, const Study& study, double unit) {
+/// Does what is driven answer to rounding alone, a parameter or a load beside the stiffest spring? So does a link whose
+/// end is pressed by a force that follows it.
+bool answers_by_rounding(const Study& study, double unit, double stiffest) {
+  return unit * unit_rounding >= (study.control == ControlMode::load ? stiffest : 1);
+}
+
+/// Does the response say nothing of lambda, which then keeps its natural unit? Where a body without chains is driven,
+/// lambda is the only way that there need be, as along an axis of symmetry.
+bool is_only_way(const PathProblem& problem, const Study& study) {
   const bool driven = study.control == ControlMode::pose || study.control == ControlMode::mixed;
-  if (driven && problem.layout().first_pose == 0) return true;
-  return study.control != ControlMode::load && unit * unit_rounding >= 1;
+  return driven && problem.layout().first_pose == 0;
 }
 
 /// What a study is made of.
@@ -86,15 +90,17 @@ bool settle(const Given& given, statics::FirstEquilibrium& first, Setup& setup) 
     const CurvePoint start = start_point(problem, begun, first);
     const auto response = continuation::response_at(problem, start.x, start.lambda, start.piece);
     if (!response) return i > 0;
+    const double stiffest =
+        range_of_springs(given.mechanism, setup.scales.length).stiffest / setup.scales.force;
+    const bool is_rounding =
+        response->lambda && answers_by_rounding(given.study, *response->lambda, stiffest);
     // Where nothing is loaded no force shows its size: that of the least stiffness against loads, as far as springs are
     // as stiff.
-    const double stiffness = std::min(
-        response->stiffness,
-        range_of_springs(given.mechanism, setup.scales.length).stiffest / setup.scales.force);
-    const double force =
-        std::max({largest_force(problem, first, start), response->multiplier, stiffness});
+    const double stiffness = std::min(response->stiffness, stiffest);
+    const double multiplier = is_rounding ? 0 : response->multiplier;
+    const double force = std::max({largest_force(problem, first, start), multiplier, stiffness});
     Units units{setup.scales.force * power_of_two_near(force), {}};
-    if (response->lambda && !is_unanswered(problem, given.study, *response->lambda))
+    if (response->lambda && !is_rounding && !is_only_way(problem, given.study))
       units.lambda = setup.lambda_scale * lambda_unit(given.study, setup, start, *response->lambda);
     if (!change_units(given, units, first, setup)) return true;
   }

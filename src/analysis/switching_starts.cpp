@@ -208,8 +208,8 @@ std::vector<Piece> pieces_at_rest(const Member& member, const SpecialPoint& poin
 }
 
 std::optional<CriticalStart> start_at_rest(const CaseCurves& curves, const Member& member,
-                                           const SpecialPoint& point, std::string& why) {
-  const CurvePoint at = way_at_rest(member, point).value_or(point.hit.point);
+                                           const SpecialPoint& point, const CurvePoint& at,
+                                           std::string& why) {
   std::optional<CriticalStart> first;
   std::optional<continuation::CriticalPoint> rate_of_first;
   for (const Piece& piece : pieces_at_rest(member, point)) {

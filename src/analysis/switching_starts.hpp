@@ -36,9 +36,11 @@ std::vector<Piece> pieces_at_rest(const Member& member, const SpecialPoint& poin
 /// A point at which springs rest is a branch point of the piece of its half-branch, or of the path's own piece where
 /// there is none, as long as the parameter lets them rest. Several pieces count as one where the parameter moves them
 /// alike, as mirror images do. Nothing: `why`.
+/// @param at  on the way along which they rest, way_at_rest()
 std::optional<continuation::CriticalStart> start_at_rest(const CaseCurves& curves,
                                                          const Member& member,
                                                          const SpecialPoint& point,
+                                                         const continuation::CurvePoint& at,
                                                          std::string& why);
 
 }  // namespace springfold::analysis

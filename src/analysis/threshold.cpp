@@ -8,6 +8,7 @@
 #include "critical_kinks.hpp"
 #include "critical_rows.hpp"
 #include "critical_runs.hpp"
+#include "critical_starts.hpp"
 #include "cut_curve.hpp"
 #include "first_unwanted.hpp"
 #include "limits.hpp"
