@@ -51,8 +51,8 @@ std::optional<std::string> nears_kinematic_singularity(const PathProblem& proble
 
 /// Chains whose joints hardly move their end in some direction at the end of a curve: the smallest singular value of
 /// their own closure has fallen below a hundredth of what it is far along the curve. Legs that are stretched out. Where
-/// there is none, the same of all closures together with what is driven held: a crank at its dead centre, or, where they
-/// lose rank with what is driven let go too, panels of an origami vertex that lie flat.
+/// there is none, the same of all closures together with what is driven held: a crank at its dead centre, or, where
+/// they lose rank with what is driven let go too, panels of an origami vertex that lie flat.
 struct StretchedChains {
   std::string text{};  ///< so in words
   bool is_end_of_reach =
@@ -62,7 +62,7 @@ struct StretchedChains {
   bool has_grown = false;  ///< the former
   bool moves_on =
       false;  ///< the closures lose rank together, whatever moves: a kinematic singularity. The joints move on
-              ///< there, in more ways than one, and the forces come back from the other infinity
+      ///< there, in more ways than one, and the forces come back from the other infinity
 };
 
 /// What is said of a curve that ends there.

@@ -85,8 +85,7 @@ double slope_across(const Member& member, const continuation::CriticalStart& p,
   if (p.turns)
     rate = p.turns({.x = p.x, .lambda = p.lambda, .tangent = {t.head(n), t[n]}, .piece = piece},
                    member.mu);
-  return rate.value_or(std::nan("")) *
-         (dg_dx.row(j).dot(t.head(n)) + dg_dlambda[j] * t[n]);
+  return rate.value_or(std::nan("")) * (dg_dx.row(j).dot(t.head(n)) + dg_dlambda[j] * t[n]);
 }
 
 bool ends_limit_corner(const CriticalHit& hit) {
@@ -281,8 +280,8 @@ void go_on_beyond(const CaseCurves& curves, const Study& study, const CriticalOr
                   const Observer& observer, StudyResult& result,
                   std::vector<FollowedCurve>& pieces) {
   const FollowedCurve followed = pieces.front();
-  const bool is_followed = origin.point.kind == EventKind::user_value ||
-                           origin.point.kind == EventKind::limit_point;
+  const bool is_followed =
+      origin.point.kind == EventKind::user_value || origin.point.kind == EventKind::limit_point;
   if (followed.start.kind != continuation::CriticalKind::limit_point &&
       !(followed.start.kind == continuation::CriticalKind::zero && is_followed))
     return;

@@ -236,10 +236,16 @@ Stop critical_stop(const CriticalCurve& curve) {
 }
 
 void begin_at_degeneracy(const CriticalHit& hit, FollowedCurve& followed) {
-  // Degeneracies are located as well, in arc length.
-  constexpr double within_start = 1e-9;
+  // Degeneracies are located as well, in arc length; extrema no better than that.
+  constexpr double within_start = 1e-9, extremum_within = 1e-6;
   followed.at_start = hit;
+  // Where the load turns back with everything else that is no extremum of its own.
+  const auto is_extremum = [](const CriticalHit& other) {
+    return other.kind == Degeneracy::extremum && other.point.s <= extremum_within;
+  };
+  std::erase_if(followed.passed, is_extremum);
   for (CriticalCurve* side : {&followed.falling, &followed.growing}) {
+    std::erase_if(side->hits, is_extremum);
     const bool ends = side->stop == continuation::StopReason::event && side->hits.size() == 1;
     if (side->hits.empty() || ends) continue;
     const CriticalHit& first = side->hits.front();
@@ -270,8 +276,12 @@ void note_passed_at_start(const std::vector<continuation::CriticalEvent>& events
   const auto add = [&](const CriticalHit& hit) {
     if (!is_met(hit)) followed.passed.push_back(hit);
   };
-  if (!followed.at_start && std::abs(start.dlambda) <= continuation::flat_rate &&
-      (ahead.lambda - start.lambda) * (back.lambda - start.lambda) > 0)
+  const double rise = ahead.lambda - start.lambda, rise_back = back.lambda - start.lambda;
+  // Of a load that stays the same all along rounding has a sign.
+  const bool is_clear = std::min(std::abs(rise), std::abs(rise_back)) >
+                        continuation::function_noise * std::max(1.0, std::abs(start.lambda));
+  if (!followed.at_start && std::abs(start.dlambda) <= continuation::flat_rate && is_clear &&
+      rise * rise_back > 0)
     add({.kind = Degeneracy::extremum, .name = "", .point = start});
   for (const continuation::CriticalEvent& event : events) {
     if (event.action != continuation::EventAction::record) continue;

@@ -65,8 +65,9 @@ class Design {
       found.status = DesignStatus::unresolved;
       found.why =
           "a requirement holds only because a parameter is moved by rounding, and not without "
-          "that: a parameter that "
-          "breaks a branch point, an imperfection, cannot be a parameter of a design";
+          "that: either the parameter breaks a branch point, and an imperfection cannot be a "
+          "parameter of a design, or the search has ended on an edge; other bounds, or another "
+          "value in the case, begin it elsewhere";
     }
     report_.status = found.status;
     report_.change = search_.size_of(found.changes);

@@ -91,17 +91,21 @@ continuation::Curve with_merged_force_events(continuation::Curve curve,
       hit.name += ", the force turns back";
       hit.tag = force_limit;
     }
-  const std::vector<Hit> all = curve.hits;
-  std::erase_if(curve.hits, [&](const Hit& hit) {
+  const auto is_more = [&](const Hit& place) {
+    return is_met_at(place, curve.hits, [&](const Hit& hit) {
+      return is_force_limit(place) ? hit.kind == HitKind::branch_point
+                                   : hit.kind != HitKind::user || is_force_limit(hit);
+    });
+  };
+  std::vector<Hit> kept;
+  for (const Hit& hit : curve.hits) {
     const bool is_told_by_sign =
         is_force_limit(hit) || has_tag(hit, dead_load_change) || has_tag(hit, driven_change);
-    if (is_told_by_sign && is_beside_branch_end(curve, hit.point, evaluator.problem())) return true;
-    if (is_force_limit(hit))
-      return is_met_at(hit, all, [](const Hit& h) { return h.kind == HitKind::branch_point; });
-    return (has_tag(hit, dead_load_change) || has_tag(hit, driven_change)) &&
-           is_met_at(hit, all,
-                     [&](const Hit& h) { return h.kind != HitKind::user || is_force_limit(h); });
-  });
+    if (!is_told_by_sign ||
+        !(is_more(hit) || is_beside_branch_end(curve, hit.point, evaluator.problem())))
+      kept.push_back(hit);
+  }
+  curve.hits = std::move(kept);
   return curve;
 }
 
@@ -126,8 +130,11 @@ bool is_beside_branch_end(const continuation::Curve& curve, const continuation::
   const auto is_near = [&](const continuation::CurvePoint& end) {
     return std::abs(point.s - end.s) < continuation::told_apart;
   };
+  // A curve that has joined another one ends at the special point there, behind its last own point.
+  const bool ends_at_hit = !curve.hits.empty() && curve.hits.back().point.s > points.back().s;
+  const continuation::CurvePoint& last = ends_at_hit ? curve.hits.back().point : points.back();
   return (is_near(points.front()) && is_branch_point(points.front(), points[1])) ||
-         (is_near(points.back()) && is_branch_point(points.back(), points[points.size() - 2]));
+         (is_near(last) && is_branch_point(last, points[points.size() - 2]));
 }
 
 }  // namespace springfold::analysis
