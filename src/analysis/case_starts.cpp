@@ -28,10 +28,11 @@ bool CaseCurves::keeps_commands(const Study& study) const {
   return !study_.critical.tied && study.start.solve == StartSolve::actuators;
 }
 
-/// Under a load, or where a parameter of the case is driven, the start enters the equations as the origin of the pose
-/// alone.
+/// Under a load, where drives are, or where a parameter of the case is driven, the start enters the equations as the
+/// origin of the pose alone.
 bool CaseCurves::counts_from_one_origin(const Study& study) {
-  return study.control == ControlMode::load || study.control == ControlMode::parameter;
+  return study.control == ControlMode::load || study.control == ControlMode::actuator ||
+         study.control == ControlMode::parameter;
 }
 
 /// How starts of members other than the first are found.

@@ -60,9 +60,9 @@ struct StretchedChains {
               ///< below a thousandth and the force has grown a hundredfold, or the force grows as
               ///< the inverse of the value
   bool has_grown = false;  ///< the former
-  bool moves_on =
-      false;  ///< the closures lose rank together, whatever moves: a kinematic singularity. The joints move on
-      ///< there, in more ways than one, and the forces come back from the other infinity
+  /// The closures lose rank together, whatever moves: a kinematic singularity. The joints move on there, in more ways
+  /// than one, and the forces come back from the other infinity.
+  bool moves_on = false;
 };
 
 /// What is said of a curve that ends there.

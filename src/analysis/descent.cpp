@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "near_fold.hpp"
 #include "resting.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/decompositions.hpp"
@@ -289,6 +290,7 @@ std::optional<RestState> judged(const Landscape& landscape, const Vector& x,
     state->softest = std::min(state->softest, modes.softest);
     state->is_clear &= modes.is_clear;
   }
+  if (state && pieces.size() == 1 && is_at_own_fold(landscape, *first)) state->is_clear = false;
   if (!state || pieces.size() == 1 || (state->index == 0 && state->is_clear)) return state;
   // Pieces that are no minima may have no room beside the state for their unstable modes.
   if (const auto index = index_on_cones(landscape, *first, pieces)) {

@@ -256,7 +256,7 @@ bool InfiniteForceWatch::ends_behind(const CurvePoint& before, const CurvePoint&
     return false;
   }
   if (!goes_straight_on(problem_, to.points) || meets_event(point, to.at())) return false;
-  ends_.push_back({point, std::move(to.at()), end_of_reach(*legs)});
+  ends_.push_back({point, std::move(to.at()), end_of_reach(*legs), legs->moves_on});
   return true;
 }
 
@@ -267,7 +267,9 @@ void InfiniteForceWatch::end(continuation::Curve& curve,
       if (options.verify_arcs && !curve.arcs.empty())
         curve.arcs = verified_arcs(problem_, curve, options);
       curve.points.push_back(end.at);
-      curve.stop = continuation::StopReason::pole;
+      // Where joints move on there is a curve behind, which is not followed.
+      curve.stop =
+          end.moves_on ? continuation::StopReason::observer : continuation::StopReason::pole;
       curve.stop_detail = end.text;
       return;
     }

@@ -47,6 +47,7 @@ class InfiniteForceWatch {
   struct End {
     continuation::CurvePoint seen{}, at{};
     std::string text{};
+    bool moves_on = false;  ///< StretchedChains::moves_on
   };
 
   /// Forces so much larger than at the first point: what happens before, the engine finds; ten times as large, rounding

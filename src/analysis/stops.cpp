@@ -27,11 +27,13 @@ Stop explained(Stop stop, const EndOfCurve& at, const Curve& curve, const PathPr
     return {(is_stuck ? std::string(to_string(curve.stop)) : stop.reason) + "; " + *length, false};
   }
   if (const auto angle = angle_near_jump(problem, end)) return {*angle, false};
+  const bool is_said = curve.stop == StopReason::observer && !curve.stop_detail.empty();
+  if (is_said) return stop;
   if (const auto why = nears_kinematic_singularity(problem, at))
     stop.reason += "; " + *why;
   else if (const auto legs = stretched_chains(problem, at))
     stop = legs->is_end_of_reach || curve.stop == StopReason::unbounded
-               ? Stop{end_of_reach(*legs), true}
+               ? Stop{end_of_reach(*legs), !legs->moves_on}
                : Stop{stop.reason + "; " + legs->text, false};
   else if (const auto names = neutral_motion(problem, end))
     stop.reason += "; nothing resists a motion of " + *names + " there";
@@ -43,6 +45,7 @@ namespace {
 struct EndOfReach {
   std::optional<CurvePoint> point{};  ///< none: the last one that is known
   std::string text{};
+  bool moves_on = false;  ///< StretchedChains::moves_on
 };
 
 /// The end of the reach behind the first `count` points, where these lead to one.
@@ -64,7 +67,7 @@ std::optional<EndOfReach> reach_behind(const PathProblem& problem, const Curve& 
     at.far.push_back(&curve.points[quarter * count / 4]);
   const auto legs = stretched_chains(problem, at);
   if (!legs || !(last ? legs->is_end_of_reach : legs->has_grown)) return std::nullopt;
-  return EndOfReach{std::move(last), end_of_reach(*legs)};
+  return EndOfReach{std::move(last), end_of_reach(*legs), legs->moves_on};
 }
 
 }  // namespace
@@ -72,7 +75,7 @@ std::optional<EndOfReach> reach_behind(const PathProblem& problem, const Curve& 
 void end_at_reach(Curve& curve, std::vector<CurvePoint>& between, Stop& stop,
                   const PathProblem& problem) {
   const auto end_at = [&](EndOfReach reach, auto first_hit, std::size_t count) {
-    stop = {std::move(reach.text), true};
+    stop = {std::move(reach.text), !reach.moves_on};
     const double known = curve.points[count - 1].s;
     curve.hits.erase(first_hit, curve.hits.end());
     curve.points.resize(count);
@@ -80,7 +83,8 @@ void end_at_reach(Curve& curve, std::vector<CurvePoint>& between, Stop& stop,
     std::erase_if(curve.hits,
                   [&](const continuation::Hit& h) { return h.point.s > curve.points.back().s; });
     std::erase_if(between, [&](const CurvePoint& p) { return p.s >= known; });
-    curve.stop = StopReason::pole;
+    curve.stop = reach.moves_on ? StopReason::observer : StopReason::pole;
+    if (reach.moves_on) curve.stop_detail = stop.reason;
   };
   for (auto hit = curve.hits.begin(); hit != curve.hits.end(); ++hit) {
     const auto has_junction = [](const continuation::Hit& h) { return h.junction >= 0; };

@@ -73,5 +73,30 @@ TEST(HalfBranchStarts, OfTwoLinksSideBySideHaveNoChangeOfStability) {
     EXPECT_EQ(count_of(branch, EventKind::stability_change), 0u);
 }
 
+/// A plate on four cables that turns half round under its load: both ways end in one point, where they are mirror
+/// images and the way down turns back.
+TEST(HalfBranchEnds, OfAPlateOnCablesThatTurnsRoundHaveNoEventOfTheirOwn) {
+  std::string text = "[[body]]\nname = \"p\"\ntask_space = \"planar\"\npose = [0, 0, 0]\n";
+  const auto cable = [&](const std::string& name, const std::string& foot, const std::string& at,
+                         const std::string& from) {
+    text += "[[spring]]\nname = \"" + name + "\"\nfrom = \"base\"\nfrom_at = " + foot +
+            "\nto = \"p\"\nto_at = " + at +
+            "\nlaw = { law = \"one_sided\", stiffness = 8.4, from = " + from + " }\n";
+  };
+  cable("a", "[-0.99, 1.24]", "[0.35, 0]", "1.643134808833408");
+  cable("b", "[0.99, 1.24]", "[-0.35, 0]", "1.643134808833408");
+  cable("c", "[-0.99, -1.24]", "[-0.35, 0]", "1.325650029230943");
+  cable("d", "[0.99, -1.24]", "[0.35, 0]", "1.325650029230943");
+  const StudyResult result =
+      run(text +
+          "[[study]]\nname = \"s\"\ntrace = { maximum_step = 0.05, maximum_points = 1500 }\n"
+          "control = \"load\"\ndirection = [0, -1, 0]\nuntil = { lambda = [-8, 8], p.x = [-3, 3], "
+          "p.y = [-3, 3], p.phi = [-4, 4] }\nbranches = { depth = 1 }\n")
+          .of("s");
+  ASSERT_GE(result.branches.size(), 3u);
+  EXPECT_EQ(count_of(result.branches[1], EventKind::stability_change),
+            count_of(result.branches[2], EventKind::stability_change));
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -58,5 +58,27 @@ TEST(StepsFromLimitPoints, AlongTheSameLoadRepeatThePathFromThere) {
     }
 }
 
+/// A slider on k x - x^3 + 0.2 x^5, pulled up to its limit point: a study that begins there with the loads as they are
+/// begins there, whatever rounding makes of a matrix that is singular.
+TEST(StepsFromLimitPoints, BeginAtThemWhereNothingIsAdded) {
+  for (int i = 0; i < 20; ++i) {
+    const double k = 1.01 + 0.01 * i;
+    const auto ran = run(
+        "[[body]]\nname = \"t\"\ntask_space = \"xy\"\n[[chain]]\nname = \"s\"\nelements = [{ joint "
+        "= "
+        "\"prismatic\", axis = \"x\", name = \"x\", role = \"preloaded\", spring = { law = "
+        "\"polynomial\", coefficients = [0, " +
+        std::to_string(k) +
+        ", 0, -1, 0, 0.2], falling = true } }]\n[[study]]\nname = \"pull\"\ncontrol = \"load\"\n"
+        "direction = [1, 0]\nuntil = { t.x = [-2, 2.5] }\n[[study]]\nname = \"push\"\ncontrol = "
+        "\"mixed\"\ndirection = [1, 0]\nstart = { from = \"pull\", at = \"LP1\" }\nuntil = { t.x = "
+        "[-3, "
+        "3] }\n");
+    const auto& start = ran.of("push").start;
+    ASSERT_TRUE(start.found) << k;
+    EXPECT_LE(start.moved, 1e-6) << k;
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -121,5 +121,49 @@ critical_curve = { of = "c1/UZ1", parameter = "a", range = [0.5, 2] }
   EXPECT_NEAR(samples.back().values[column(result, "a")], 2, 1e-12);
 }
 
+/// A slider with 0.5 x - x^3 on an elastic drive of stiffness 1 under a dead load W: driven by q, x has its limit point
+/// at x = sqrt(1/2), q = sqrt(1/2) - W. It comes to the start, q = 0, at W = sqrt(1/2).
+TEST(VanishingStarts, OfADrivenSliderEndItsFirstCriticalLoadsThere) {
+  const auto ran = run(R"toml(
+[parameters]
+W = 0.2
+[[body]]
+name = "tool"
+task_space = "xy"
+[[chain]]
+name = "s"
+elements = [ { joint = "prismatic", axis = "x", name = "drive", role = "actuated", value = 0, stiffness = 1 } ]
+[[spring]]
+name = "f"
+shape = "line"
+of = ["tool", { on = "base", at = [0, 1] }, { on = "base", at = [0, 0] }]
+law = { law = "polynomial", coefficients = [0, 0.5, 0, -1], falling = true }
+[[study]]
+name = "first"
+kind = "critical_load"
+control = "actuator"
+actuators = { s.drive = 1 }
+load = ["W", 0]
+until = { tool.x = [-1.5, 1.5], lambda = [-2, 2] }
+critical_load = { of = "limit_point", parameter = "W", range = [0, 0.7], values = 8 }
+[[study]]
+name = "threshold"
+kind = "threshold"
+control = "actuator"
+actuators = { s.drive = 1 }
+load = ["W", 0]
+until = { tool.x = [-1.5, 1.5], lambda = [-2, 2] }
+threshold = { of = "limit_point", parameter = "W", range = [0, 1] }
+)toml");
+  const auto& first = ran.of("first");
+  EXPECT_TRUE(complete(first)) << testing::PrintToString(first.doubts);
+  for (const auto& sample : first.branches.at(0).samples)
+    EXPECT_NEAR(sample.values[column(first, "lambda")], std::sqrt(0.5) - sample.values.back(),
+                1e-9);
+  const auto& threshold = ran.of("threshold");
+  ASSERT_TRUE(threshold.threshold && threshold.threshold->found);
+  EXPECT_NEAR(threshold.threshold->value, std::sqrt(0.5), 1e-9);
+}
+
 }  // namespace
 }  // namespace springfold::io

@@ -84,5 +84,37 @@ TEST(WholeTurns, GraphsOfAStartOutsideOfTheRangeSaySo) {
   EXPECT_FALSE(analysis::complete(result));
 }
 
+/// A crank on a spring is turned by a moment: from its limit point on nothing holds it, the limit point itself a turn
+/// farther least of all.
+TEST(WholeTurns, OfACrankEndAtNoLimitPointATurnFarther) {
+  const StudyResult result = run(R"toml(
+[[body]]
+name = "p"
+task_space = "planar"
+[[chain]]
+name = "c"
+to = "p"
+elements = [{ joint = "revolute", axis = "z", name = "j" }]
+[[spring]]
+name = "s"
+from = "base"
+from_at = [1.04, 0.465]
+to = "p"
+to_at = [0.592, 0]
+law = { law = "linear", stiffness = 4.63, free = 0.51 }
+[[study]]
+name = "s"
+kind = "snap_through"
+control = "load"
+direction = [0, 0, 1]
+until = { lambda = [-20, 20], p.phi = [-7, 7] }
+)toml")
+                                 .of("s");
+  ASSERT_EQ(result.snap->jumps.size(), 2U);
+  for (const auto& jump : result.snap->jumps)
+    EXPECT_EQ(jump.verdict, SnapVerdict::runs_away) << jump.from;
+  EXPECT_TRUE(analysis::complete(result)) << testing::PrintToString(result.doubts);
+}
+
 }  // namespace
 }  // namespace springfold::io

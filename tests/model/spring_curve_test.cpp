@@ -266,5 +266,45 @@ TEST(HoldsBothWays, IsTrueOfLawsWhoseEnergyGrowsWithoutBound) {
   EXPECT_FALSE(holds_both_ways(compile(TableSpring{{0, 1, 3}, {0, 1, 1}})));
 }
 
+TEST(PartsOfACurve, AreTheCurveUpToItsBendsAndSmoothBeyond) {
+  for (const SpringLaw& law : all_curves()) {
+    const CompiledSpring spring = compile(law);
+    for (const SpringCurve& curve : spring.curves) {
+      const std::vector<double> bends = bends_of(curve);
+      for (std::size_t part = 0; part <= bends.size(); ++part) {
+        const SpringCurve held = part_of(curve, part);
+        const double low = part > 0 ? bends[part - 1] : bends.empty() ? -0.1 : bends[0] - 1;
+        const double high = part < bends.size() ? bends[part] : low + 1;
+        for (const double share : {0.01, 0.5, 0.99}) {
+          const double c = low + share * (high - low);
+          const Jet<double> own = torque_of<double>(curve, c), there = torque_of<double>(held, c);
+          EXPECT_NEAR(there.value, own.value, 1e-14);
+          EXPECT_NEAR(there.slope, own.slope, 1e-13);
+          EXPECT_NEAR(there.bend, own.bend, 1e-11);
+          EXPECT_NEAR(energy_of<double>(held, c), energy_of<double>(curve, c), 1e-13);
+        }
+        constexpr double beside = 1e-6;
+        if (part < bends.size()) {
+          EXPECT_NEAR(torque_of<double>(held, high + beside).bend,
+                      torque_of<double>(held, high - beside).bend, 1e-3);
+        }
+      }
+    }
+  }
+}
+
+TEST(PartsOfACurve, MeetAtBendsWithOneTorqueAndOneSlope) {
+  for (const SpringLaw& law : all_curves())
+    for (const SpringCurve& curve : compile(law).curves) {
+      const std::vector<double> bends = bends_of(curve);
+      for (std::size_t k = 0; k < bends.size(); ++k) {
+        const Jet<double> below = torque_of<double>(part_of(curve, k), bends[k]),
+                          above = torque_of<double>(part_of(curve, k + 1), bends[k]);
+        EXPECT_NEAR(below.value, above.value, 1e-13);
+        EXPECT_NEAR(below.slope, above.slope, 1e-12);
+      }
+    }
+}
+
 }  // namespace
 }  // namespace springfold::model
