@@ -127,7 +127,7 @@ std::optional<double> jump_of_start(const DesignCase& of, const Vector& values, 
   if (!last || !before || !behind) return std::nullopt;
   const double jump = (*behind - *last).norm();
   const bool jumps = jump > far * (*last - *before).norm() && jump > continuation::promised_place;
-  return jumps ? std::optional(high) : std::nullopt;
+  return jumps ? std::optional(std::min(high, 1.0)) : std::nullopt;
 }
 
 DesignPath::DesignPath(const DesignCase& of, const Vector& values, const Vector& pose)
