@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "branch_rows.hpp"
+#include "limits.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "switching_starts.hpp"
 

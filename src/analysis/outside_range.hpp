@@ -9,9 +9,9 @@ namespace springfold::analysis {
 
 /// " is 2.5, outside the range (0 to 1)".
 inline std::string outside_range(double value, const std::string& what, double low, double high) {
-  constexpr int digits = 6;
-  return " is " + rounded(value, digits) + ", outside " + what + " (" + rounded(low, digits) +
-         " to " + rounded(high, digits) + ")";
+  constexpr int shown = 6;
+  return " is " + rounded(value, shown) + ", outside " + what + " (" + rounded(low, shown) +
+         " to " + rounded(high, shown) + ")";
 }
 
 }  // namespace springfold::analysis

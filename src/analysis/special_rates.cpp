@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "critical_starts.hpp"
 #include "springfold/core/differences.hpp"
 
 namespace springfold::analysis {
