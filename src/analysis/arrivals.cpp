@@ -120,6 +120,7 @@ Continued continued_with(const Arrivals& arrivals, const CaseStudy& of,
   later.way = arrival->way;
   if (!later.problem.empty()) return later;
   later.study.start.attempts = 1;  // nothing but that state is meant
+  later.study.start.is_state = true;
   const std::vector<std::string>& held = arrivals.history().held;
   begin_in(*arrival, held, later.mechanism);
   later.problem = trouble_with_loads(later.study, later.mechanism);
@@ -229,6 +230,7 @@ std::shared_ptr<const CaseFamily> after(std::shared_ptr<const Arrivals> arrivals
     if (!now.problem.empty()) return now;
     now.is_in_state = true;
     now.study.start.attempts = 1;
+    now.study.start.is_state = true;
     begin_in(*arrival, arrivals->history().held, now.mechanism);
     now.problem = trouble_with_loads(now.study, now.mechanism);
     return now;

@@ -27,8 +27,9 @@ bool is_on_bend(double coordinate, double bend) {
 
 }  // namespace
 
-ContinuedLaws::ContinuedLaws(const CaseCurves& curves) : curves_{curves} {
-  if (!curves.has_base()) return;
+ContinuedLaws::ContinuedLaws(const CaseCurves& curves, continuation::CriticalKind kind)
+    : curves_{curves} {
+  if (!curves.has_base() || kind == continuation::CriticalKind::zero) return;
   const statics::System& system = curves.base().setup.system;
   const auto add = [&](const model::CompiledSpring& law, bool of_shape, std::size_t number) {
     for (std::size_t c = 0; c < law.curves.size(); ++c)
@@ -52,7 +53,9 @@ std::vector<double> ContinuedLaws::bends_of(const statics::System& system, const
 
 void ContinuedLaws::hold(statics::System& system) const {
   for (const Law& law : laws_) {
-    if (law.part > bends_of(system, law).size()) continue;
+    if (law.curve >= spring_of(system, law).curves.size() ||
+        law.part > bends_of(system, law).size())
+      continue;
     auto& spring = law.of_shape ? system.shapes[law.spring].law : system.springs[law.spring].law;
     model::SpringCurve& curve = spring.curves[law.curve];
     curve = model::part_of(curve, law.part);

@@ -15,7 +15,8 @@ namespace springfold::analysis {
 /// that limit points and branch points of both parts agree in it, and the slopes of their curves don't.
 class ContinuedLaws {
  public:
-  explicit ContinuedLaws(const CaseCurves& curves);
+  /// @param kind  of what is followed. Zeros of the caller's functions know the laws as they are: these are not held.
+  ContinuedLaws(const CaseCurves& curves, continuation::CriticalKind kind);
 
   /// Each law in the part in which it is at the point; on a bend in that above it.
   void hold_at(const continuation::CriticalPoint& point);

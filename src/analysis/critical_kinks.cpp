@@ -86,7 +86,7 @@ class Follower {
            const std::vector<CriticalEvent>& events, const continuation::TraceOptions& options,
            const Observer& observer, const continuation::FurtherPoints& further)
       : curves_{curves},
-        laws_{curves},
+        laws_{curves, start.kind},
         start_{start},
         events_{events},
         options_{options},
@@ -103,6 +103,7 @@ class Follower {
       if (auto found = beside(start_, growing)) stretch_ = std::move(*found);
     while (stretch_.goes_on() && !stretch_.curve.points.empty())
       if (!(stretch_.bends ? pass_bend(growing) : pass_kink())) break;
+    refuse_if_it_stands();
     return std::move(stretch_.curve);
   }
 
@@ -184,6 +185,19 @@ class Follower {
     return std::nullopt;
   }
 
+  /// A curve that is back at its start before it has left it is none: what is zero has a kink there.
+  void refuse_if_it_stands() {
+    CriticalCurve& curve = stretch_.curve;
+    constexpr std::size_t fewest = 5;  // of a curve that comes round
+    if (curve.stop != continuation::StopReason::closed || curve.points.empty() ||
+        curve.points.size() >= fewest)
+      return;
+    curve.points.resize(1);
+    curve.hits.clear();
+    curve.stop = continuation::StopReason::step_too_small;
+    curve.stop_detail = "the curve could not be led away from its start, where its slope jumps";
+  }
+
   /// Says why the curve ends here, which it does until it goes on.
   void end_here(const std::string& what) {
     stretch_.curve.stop = continuation::StopReason::step_too_small;
@@ -242,8 +256,10 @@ class Follower {
 
   /// Has the curve passed this point before, in the same sense? It ends at its start then.
   bool comes_round(const CriticalPoint& point) {
+    // Bends may lie closer together than that: the curve has to have been elsewhere.
     const auto is_here = [&](const CriticalPoint& other) {
-      return other.dmu * point.dmu > 0 && distance(other, point) <= continuation::told_apart;
+      return other.dmu * point.dmu > 0 && distance(other, point) <= continuation::told_apart &&
+             point.s - other.s > 2 * continuation::told_apart;
     };
     if (std::any_of(passed_.begin(), passed_.end(), is_here)) {
       end_at_start(passed_.front().s, stretch_.curve);

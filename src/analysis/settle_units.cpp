@@ -49,9 +49,11 @@ double lambda_unit(const Study& study, const Setup& setup, const CurvePoint& sta
 }
 
 /// Does what is driven answer to rounding alone, a parameter or a load beside the stiffest spring? So does a link whose
-/// end is pressed by a force that follows it.
+/// end is pressed by a force that follows it. Without springs, as under weights alone, loads have nothing to be small
+/// beside.
 bool answers_by_rounding(const Study& study, double unit, double stiffest) {
-  return unit * unit_rounding >= (study.control == ControlMode::load ? stiffest : 1);
+  if (study.control != ControlMode::load) return unit * unit_rounding >= 1;
+  return stiffest > 0 && unit * unit_rounding >= stiffest;
 }
 
 /// Does the response say nothing of lambda, which then keeps its natural unit? Where a body without chains is driven,

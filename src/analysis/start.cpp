@@ -115,6 +115,7 @@ statics::StartProblem start_problem(const Setup& setup, Index number, const Star
   problem.body = number;
   problem.attempts = options.attempts;
   problem.seed = options.seed;
+  problem.is_state = options.is_state;
   problem.z = statics::guess(setup.system);
   problem.inputs = {setup.system.commands, setup.rule.W_start, setup.rule.load_start};
   const auto& body = setup.system.body_slices[static_cast<std::size_t>(number - 1)];

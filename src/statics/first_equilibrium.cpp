@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -131,6 +132,13 @@ bool solve_long_chains(const System& system, const StartProblem& problem, StartE
   }
   result.attempts = problem.attempts;
   return false;
+}
+
+/// Has a solution been left for another one?
+bool leaves(StartEquations& equations, const System& system, const StartState& from,
+            const StartState& to) {
+  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon(), hardly = 1e-6;
+  return farthest_coordinate(system, to.z, from.z) > hardly && equations.solved(from, rounding);
 }
 
 /// From closed chains: residual and iterations into `result`.
@@ -268,6 +276,7 @@ FirstEquilibrium first_equilibrium(const System& system, const StartProblem& pro
     solve_attempt(system, problem, equations, state, result);
     if (shorten_turns(system, state.z))
       result.residual = polish(equations, state, result.iterations);
+    if (problem.is_state && leaves(equations, system, closed, state)) state = closed;
     result.z = state.z;
     result.inputs = state.inputs;
     if (equations.solved(state, start_tolerance)) {

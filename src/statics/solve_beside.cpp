@@ -80,7 +80,6 @@ double polish(StartEquations& equations, StartState& state, int& iterations) {
   constexpr int most = 12;
   constexpr double half = 0.5;
   constexpr double contracts = 0.4;  // less than the half by which steps to a singular state shrink
-  constexpr double far = 1e-6;  // from a state that is solved: a step of rounding, at a limit point
   Vector r, step;
   Matrix J;
   std::vector<StartState> reached;             // one nearer than the other
@@ -103,7 +102,6 @@ double polish(StartEquations& equations, StartState& state, int& iterations) {
     residual = size;
     way = next;
     if (!(falls || comes_nearer) || !std::isfinite(next)) break;
-    if (next > far && equations.is_rounding_by_rows(state, r, J)) break;
     equations.unpack(equations.pack(state) - step, state);
     ++iterations;
   }

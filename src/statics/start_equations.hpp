@@ -138,14 +138,6 @@ class StartEquations {
     return true;
   }
 
-  /// Is what is left of every row rounding of its own terms, which cancel within a spring's law, too? Where the matrix
-  /// J is singular a step of Newton's method is then one of rounding, however long.
-  bool is_rounding_by_rows(const StartState& state, const Vector& r, const Matrix& J) const {
-    constexpr double of_laws = 64 * std::numeric_limits<double>::epsilon();
-    const Vector rounding = of_laws * J.cwiseAbs() * pack(state).cwiseAbs();
-    return (r.array().abs() <= rounding.array()).all();
-  }
-
   bool jacobian(const StartState& state, Matrix& J) {
     const bool finite = equilibrium_matrix(system_, piece_at(system_, state.z, state.inputs.rho),
                                            state.z, state.inputs, work_, full_, A_, &dR_drho_);

@@ -278,15 +278,17 @@ TEST(PartsOfACurve, AreTheCurveUpToItsBendsAndSmoothBeyond) {
         for (const double share : {0.01, 0.5, 0.99}) {
           const double c = low + share * (high - low);
           const Jet<double> own = torque_of<double>(curve, c), there = torque_of<double>(held, c);
+          if (std::isnan(own.value)) continue;  // outside of its domain
           EXPECT_NEAR(there.value, own.value, 1e-14);
           EXPECT_NEAR(there.slope, own.slope, 1e-13);
           EXPECT_NEAR(there.bend, own.bend, 1e-11);
           EXPECT_NEAR(energy_of<double>(held, c), energy_of<double>(curve, c), 1e-13);
         }
-        constexpr double beside = 1e-6;
         if (part < bends.size()) {
-          EXPECT_NEAR(torque_of<double>(held, high + beside).bend,
-                      torque_of<double>(held, high - beside).bend, 1e-3);
+          constexpr double beside = 1e-6, of_slope = 1e-3;
+          const double below = torque_of<double>(held, high - beside).bend,
+                       above = torque_of<double>(held, high + beside).bend;
+          EXPECT_NEAR(above, below, of_slope * std::max(1.0, std::abs(below)));
         }
       }
     }

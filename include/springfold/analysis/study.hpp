@@ -86,6 +86,7 @@ struct StartOptions {
   /// The equilibrium is refused if a coordinate or pose lies farther from its guess [-]: 1 is one
   /// radian or about one size of the mechanism.
   double maximum_move = std::numeric_limits<double>::infinity();
+  bool is_state = false;  ///< the guess is a state of an earlier study
 };
 
 /// The branch ends where the named quantity leaves [low, high].

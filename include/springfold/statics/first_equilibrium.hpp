@@ -38,6 +38,9 @@ struct StartProblem {
   /// z and inputs solve a problem next to this one: its solution is the one that belongs to them, or none.
   bool is_neighbour = false;
   Foresight foresight{};  ///< is_neighbour: what else neighbours tell
+  /// z was solved before. Where it solves this problem to rounding it stays: at a limit point, where the matrix is
+  /// singular, a step of Newton's method would lead away from it.
+  bool is_state = false;
 };
 
 enum class StartStatus {
