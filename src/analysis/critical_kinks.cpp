@@ -103,7 +103,6 @@ class Follower {
       if (auto found = beside(start_, growing)) stretch_ = std::move(*found);
     while (stretch_.goes_on() && !stretch_.curve.points.empty())
       if (!(stretch_.bends ? pass_bend(growing) : pass_kink())) break;
-    refuse_if_it_stands();
     return std::move(stretch_.curve);
   }
 
@@ -185,19 +184,6 @@ class Follower {
     return std::nullopt;
   }
 
-  /// A curve that is back at its start before it has left it is none: what is zero has a kink there.
-  void refuse_if_it_stands() {
-    CriticalCurve& curve = stretch_.curve;
-    constexpr std::size_t fewest = 5;  // of a curve that comes round
-    if (curve.stop != continuation::StopReason::closed || curve.points.empty() ||
-        curve.points.size() >= fewest)
-      return;
-    curve.points.resize(1);
-    curve.hits.clear();
-    curve.stop = continuation::StopReason::step_too_small;
-    curve.stop_detail = "the curve could not be led away from its start, where its slope jumps";
-  }
-
   /// Says why the curve ends here, which it does until it goes on.
   void end_here(const std::string& what) {
     stretch_.curve.stop = continuation::StopReason::step_too_small;
@@ -256,13 +242,14 @@ class Follower {
 
   /// Has the curve passed this point before, in the same sense? It ends at its start then.
   bool comes_round(const CriticalPoint& point) {
-    // Bends may lie closer together than that: the curve has to have been elsewhere.
+    // The curve has to have been elsewhere, farther than the widest gap that a kink is passed by, to both sides.
+    constexpr double elsewhere = 32 * beside_kink;
     const auto is_here = [&](const CriticalPoint& other) {
       return other.dmu * point.dmu > 0 && distance(other, point) <= continuation::told_apart &&
-             point.s - other.s > 2 * continuation::told_apart;
+             point.s - other.s > elsewhere;
     };
     if (std::any_of(passed_.begin(), passed_.end(), is_here)) {
-      end_at_start(passed_.front().s, stretch_.curve);
+      end_at_start(std::max(passed_.front().s, elsewhere), stretch_.curve);
       return true;
     }
     passed_.push_back(point);
@@ -285,7 +272,9 @@ class Follower {
 
   std::optional<Stretch> going_on(const CriticalPoint& first, bool growing) const {
     Stretch next = from_place(moved_to(start_, first), growing, curves_.start_enters_equations());
-    return has_left(next) ? std::optional(std::move(next)) : std::nullopt;
+    // Back at its own start, which lies behind a kink or on a bend: it turned where its slope jumps.
+    const bool comes_back = next.curve.stop == continuation::StopReason::closed;
+    return has_left(next) && !comes_back ? std::optional(std::move(next)) : std::nullopt;
   }
 
   bool differ(double a, double b) const {

@@ -126,19 +126,33 @@ bool close_gap(const CaseCurves& curves, const CriticalStart& start,
   return false;
 }
 
+namespace {
+
+/// Do two chords of a curve lead the same way?
+bool lead_alike(const CriticalPoint& a, const CriticalPoint& b, const CriticalPoint& c,
+                const CriticalPoint& d) {
+  return (b.x - a.x).dot(d.x - c.x) + (b.lambda - a.lambda) * (d.lambda - c.lambda) +
+             (b.mu - a.mu) * (d.mu - c.mu) >
+         0;
+}
+
+}  // namespace
+
 void end_at_start(double s, CriticalCurve& curve) {
   const CriticalPoint start = curve.points.front();
-  curve.stop = continuation::StopReason::closed;
-  curve.stop_detail.clear();
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
     const CriticalPoint &a = curve.points[i - 1], &b = curve.points[i];
     const double length = distance(a, b);
-    if (a.s < s || distance(a, start) > length || distance(b, start) > length) continue;
+    if (a.s < s || distance(a, start) > length || distance(b, start) > length ||
+        !lead_alike(start, curve.points[1], a, b))
+      continue;
     const double end = a.s + distance(a, start);
     std::erase_if(curve.hits, [&](const CriticalHit& hit) { return hit.point.s > end; });
     curve.points.resize(i);
     curve.points.push_back(start);
     curve.points.back().s = end;
+    curve.stop = continuation::StopReason::closed;
+    curve.stop_detail.clear();
     return;
   }
 }

@@ -40,7 +40,7 @@ bool close_gap(const CaseCurves& curves, const continuation::CriticalStart& star
                const std::vector<continuation::CriticalEvent>& events,
                const continuation::CriticalPoint& to, continuation::CriticalCurve& curve);
 
-/// A curve that has come round once more ends at its start.
+/// A curve that has come round once more ends at its start. One that does not pass it is left as it is.
 /// @param s  behind this it passes its start again
 void end_at_start(double s, continuation::CriticalCurve& curve);
 

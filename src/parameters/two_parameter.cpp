@@ -69,10 +69,9 @@ class Follower {
       if (!along) first_ = {.x = at, .lambda = mu, .tangent = ray->tangent};
       const bool renew = leg(*system, at, mu, *ray);
       if (!renew) break;
-      const CurvePoint end = last_;
-      along = end.tangent;
-      at = end.x;
-      mu = end.lambda;
+      along = last_.tangent;
+      at = last_.x;
+      mu = last_.lambda;
       const auto place = system->place(at, mu);
       if (!place) break;
       start_.x = at.head(system->n());
@@ -163,6 +162,7 @@ class Follower {
     };
     std::vector<CurvePoint> middles;
     Curve curve = trace_with_middles(system, X, mu, ray, events, options_, observe, middles);
+    end_where_it_turned(system, back, length_, curve);
     const bool broken = lost && system.unfolding(curve.points.back().x) > kept_within;
     if (lost) leave_out_last(curve);
     if (back.found()) close(*back.found(), curve);
