@@ -1,6 +1,7 @@
 // The curve of a study for every value of one of the case's parameters. Private to analysis.
 #pragma once
 
+#include <functional>
 #include <list>
 #include <map>
 #include <memory>
@@ -87,6 +88,17 @@ class CaseCurves {
   /// Why there is no start, where the last at(mu) gave nothing: in words.
   std::string why_none(double mu) const;
   continuation::Family family() const;
+  /// The member's problem at mu, and what evaluates states of it: with laws as a curve is followed in (ContinuedLaws),
+  /// its own otherwise.
+  struct Followed {
+    const Member* member = nullptr;
+    const PathProblem* problem = nullptr;
+    const Evaluator* evaluator = nullptr;
+  };
+  using FollowedAt = std::function<std::optional<Followed>(double mu)>;
+  std::optional<Followed> followed_at(double mu) const;
+  /// While a curve is followed in problems of its own; empty: no longer.
+  void follow_in(FollowedAt problems) const { followed_ = std::move(problems); }
   /// Where the parameter's range ends at rules for the case's numbers, and at which.
   const RuledRange& rules() const { return rules_; }
   void end_at_rules(RuledRange rules) { rules_ = std::move(rules); }
@@ -167,6 +179,7 @@ class CaseCurves {
     std::unique_ptr<Member> member{};
     std::list<double>::iterator call{};  ///< the last one that asked for it, in calls_
   };
+  mutable FollowedAt followed_{};
   mutable std::map<double, Recent> recent_{};  ///< by mu
   mutable std::list<double> calls_{};  ///< mu of the recent members, the one asked for last first
   struct KnownStart {

@@ -45,6 +45,13 @@ void Member::forget_columns() {
   quantities_.clear();
 }
 
+std::optional<CaseCurves::Followed> CaseCurves::followed_at(double mu) const {
+  if (followed_) return followed_(mu);
+  const Member* const member = equations_at(mu);
+  if (member == nullptr) return std::nullopt;
+  return Followed{member, member->problem.get(), &member->evaluator()};
+}
+
 const QuantityDefinition* Member::quantity(const std::string& name) const {
   return find_quantity(quantities(), name);
 }

@@ -27,9 +27,8 @@ bool is_on_bend(double coordinate, double bend) {
 
 }  // namespace
 
-ContinuedLaws::ContinuedLaws(const CaseCurves& curves, continuation::CriticalKind kind)
-    : curves_{curves} {
-  if (!curves.has_base() || kind == continuation::CriticalKind::zero) return;
+ContinuedLaws::ContinuedLaws(const CaseCurves& curves) : curves_{curves} {
+  if (!curves.has_base()) return;
   const statics::System& system = curves.base().setup.system;
   const auto add = [&](const model::CompiledSpring& law, bool of_shape, std::size_t number) {
     for (std::size_t c = 0; c < law.curves.size(); ++c)
@@ -38,7 +37,19 @@ ContinuedLaws::ContinuedLaws(const CaseCurves& curves, continuation::CriticalKin
   };
   for (std::size_t i = 0; i < system.springs.size(); ++i) add(system.springs[i].law, false, i);
   for (std::size_t i = 0; i < system.shapes.size(); ++i) add(system.shapes[i].law, true, i);
+  if (laws_.empty()) return;
+  curves_.follow_in([this](double mu) -> std::optional<CaseCurves::Followed> {
+    const Member* const member = curves_.equations_at(mu);
+    Held* const held = member == nullptr ? nullptr : at(mu);
+    if (held == nullptr) return std::nullopt;
+    if (!held->evaluator)
+      held->evaluator =
+          std::make_unique<Evaluator>(*held->problem, member->study, member->setup.scales);
+    return CaseCurves::Followed{member, held->problem.get(), held->evaluator.get()};
+  });
 }
+
+ContinuedLaws::~ContinuedLaws() { curves_.follow_in({}); }
 
 const model::CompiledSpring& ContinuedLaws::spring_of(const statics::System& system,
                                                       const Law& law) {
@@ -62,10 +73,10 @@ void ContinuedLaws::hold(statics::System& system) const {
   }
 }
 
-const PathProblem* ContinuedLaws::at(double mu) const {
+ContinuedLaws::Held* ContinuedLaws::at(double mu) const {
   const auto known =
       std::find_if(held_.begin(), held_.end(), [&](const Held& held) { return held.mu == mu; });
-  if (known != held_.end()) return known->problem.get();
+  if (known != held_.end()) return &*known;
   const Member* member = curves_.equations_at(mu);
   if (member == nullptr) return nullptr;
   if (held_.size() >= problems_kept) held_.pop_front();
@@ -80,16 +91,16 @@ const PathProblem* ContinuedLaws::at(double mu) const {
     };
   held.problem =
       std::make_unique<PathProblem>(std::shared_ptr<const statics::System>(held.system), rule);
-  return held_.emplace_back(std::move(held)).problem.get();
+  return &held_.emplace_back(std::move(held));
 }
 
 continuation::Family ContinuedLaws::family() const {
   continuation::Family family = curves_.family();
   if (!laws_.empty())
     family.at = [this](double mu) -> std::optional<continuation::ProblemView> {
-      const PathProblem* problem = at(mu);
-      if (problem == nullptr) return std::nullopt;
-      return continuation::ProblemView(*problem);
+      const Held* held = at(mu);
+      if (held == nullptr) return std::nullopt;
+      return continuation::ProblemView(*held->problem);
     };
   return family;
 }

@@ -15,8 +15,10 @@ namespace springfold::analysis {
 /// that limit points and branch points of both parts agree in it, and the slopes of their curves don't.
 class ContinuedLaws {
  public:
-  /// @param kind  of what is followed. Zeros of the caller's functions know the laws as they are: these are not held.
-  ContinuedLaws(const CaseCurves& curves, continuation::CriticalKind kind);
+  explicit ContinuedLaws(const CaseCurves& curves);
+  ~ContinuedLaws();
+  ContinuedLaws(const ContinuedLaws&) = delete;
+  ContinuedLaws& operator=(const ContinuedLaws&) = delete;
 
   /// Each law in the part in which it is at the point; on a bend in that above it.
   void hold_at(const continuation::CriticalPoint& point);
@@ -39,11 +41,12 @@ class ContinuedLaws {
     double mu = 0;
     std::shared_ptr<statics::System> system{};
     std::unique_ptr<PathProblem> problem{};
+    std::unique_ptr<Evaluator> evaluator{};  ///< made when it is asked for
   };
   static const model::CompiledSpring& spring_of(const statics::System& system, const Law& law);
   static std::vector<double> bends_of(const statics::System& system, const Law& law);
   void hold(statics::System& system) const;
-  const PathProblem* at(double mu) const;
+  Held* at(double mu) const;
   struct Place {
     double coordinate = 0;
     std::vector<double> bends{};

@@ -86,7 +86,7 @@ class Follower {
            const std::vector<CriticalEvent>& events, const continuation::TraceOptions& options,
            const Observer& observer, const continuation::FurtherPoints& further)
       : curves_{curves},
-        laws_{curves, start.kind},
+        laws_{curves},
         start_{start},
         events_{events},
         options_{options},

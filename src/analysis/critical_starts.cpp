@@ -18,19 +18,19 @@ using continuation::Direction;
 using continuation::Hit;
 
 /// A rate along the curve through a state, whose tangent has the sense of one at the special point.
-using RateAt = std::function<double(const Member&, const CurvePoint&)>;
+using RateAt = std::function<double(const CaseCurves::Followed&, const CurvePoint&)>;
 continuation::StateFunction rate_of(const CaseCurves& curves, Piece piece, Direction sense,
                                     RateAt rate) {
   return [&curves, piece = std::move(piece), sense = std::move(sense), rate = std::move(rate)](
              const Vector& x, double lambda, double mu) -> std::optional<double> {
-    const Member* member = curves.equations_at(mu);
-    if (member == nullptr) return std::nullopt;
+    const auto followed = curves.followed_at(mu);
+    if (!followed) return std::nullopt;
     continuation::Linearisation at;
-    const PathProblem& problem = *member->problem;
+    const PathProblem& problem = *followed->problem;
     if (!continuation::linearise_densely(problem, x, lambda, piece, at)) return std::nullopt;
     const auto tangent = continuation::tangent_at(at, problem.metric(), sense);
     if (!tangent) return std::nullopt;
-    return rate(*member, {.x = x, .lambda = lambda, .tangent = *tangent, .piece = piece});
+    return rate(*followed, {.x = x, .lambda = lambda, .tangent = *tangent, .piece = piece});
   };
 }
 
@@ -39,8 +39,9 @@ continuation::StateFunction rate_of(const CaseCurves& curves, Piece piece, Direc
 continuation::StateFunction column_rate_of(const CaseCurves& curves, const CurvePoint& at,
                                            const std::string& column) {
   return rate_of(curves, at.piece, at.tangent,
-                 [column](const Member& member, const CurvePoint& point) {
-                   return member.evaluator().rate(*member.quantity(column), point).value;
+                 [column](const CaseCurves::Followed& at_point, const CurvePoint& point) {
+                   const QuantityDefinition& quantity = *at_point.member->quantity(column);
+                   return at_point.evaluator->rate(quantity, point).value;
                  });
 }
 
@@ -113,8 +114,8 @@ CriticalStart start_at(const Member& member, const SpecialPoint& point) {
 
 continuation::StateFunction force_rate_of(const CaseCurves& curves, const CurvePoint& at) {
   return rate_of(curves, at.piece, {Vector::Zero(at.x.size()), 1},
-                 [](const Member& member, const CurvePoint& point) {
-                   return member.evaluator().force_rate(point).value;
+                 [](const CaseCurves::Followed& at_point, const CurvePoint& point) {
+                   return at_point.evaluator->force_rate(point).value;
                  });
 }
 

@@ -119,9 +119,9 @@ int corank_of(const PathProblem& problem, const CurvePoint& at, const Piece& pie
 
 continuation::RateFunction force_turns(const CaseCurves& curves) {
   return [&curves](const CurvePoint& point, double mu) -> std::optional<double> {
-    const Member* member = curves.equations_at(mu);
-    if (member == nullptr) return std::nullopt;
-    return member->evaluator().force_rate(point).value;
+    const auto followed = curves.followed_at(mu);
+    if (!followed) return std::nullopt;
+    return followed->evaluator->force_rate(point).value;
   };
 }
 

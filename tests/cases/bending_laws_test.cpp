@@ -120,6 +120,50 @@ TEST(BendingLaws, LeadLimitPointsThereAndBackInOneCurve) {
   EXPECT_GT(beyond, 5);
 }
 
+/// A slider on a table whose maximum is one of its points, with a spring e beside it: at e = 0 the limit point of the
+/// force lies on that point, whatever the table does beside it.
+TEST(BendingLaws, LeadLimitPointsOfADrivenForceOverThePointsOfATable) {
+  for (const std::string control : {"mixed", "pose", "load"})
+    for (const std::string begin : {"-0.1", "0", "0.1"}) {
+      SCOPED_TRACE(control + " " + begin);
+      const StudyResult result = run("[parameters]\ne = " + begin + R"toml(
+[[body]]
+name = "t"
+task_space = "xy"
+[[chain]]
+name = "g"
+elements = [
+  { joint = "prismatic", axis = "x", name = "x", role = "preloaded", spring = { law = "table", points = [[-1, -1], [0, 0], [1, 1], [2, 0.5], [3, 1.5]], falling = true } },
+  { joint = "prismatic", axis = "y", name = "y", role = "preloaded", spring = { law = "linear", stiffness = 1 } },
+]
+[[chain]]
+name = "o"
+elements = [
+  { joint = "prismatic", axis = "x", name = "x", role = "preloaded", spring = { law = "linear", stiffness = "e", falling = true } },
+  { joint = "prismatic", axis = "y", name = "y" },
+]
+[[study]]
+name = "s"
+kind = "critical_curve"
+direction = [1, 0]
+until = { t.x = [-0.9, 3.5] }
+critical_curve = { of = "LP1", parameter = "e", range = [-0.2, 0.2] }
+control = ")toml" + control + "\"\n")
+                                     .of("s");
+      EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+      const auto& rows = result.branches.at(0).samples;
+      EXPECT_NEAR(rows.front().values.back(), -0.2, 1e-12);
+      EXPECT_NEAR(rows.back().values.back(), 0.2, 1e-12);
+      for (std::size_t row = 0; row < rows.size(); ++row) {
+        // Slopes of the table at its points 0, 1 and 2 are 1, 0 and 0 (Fritsch and Butland): its cubics give those
+        // between. The slope of the force is that of the table and e.
+        const double x = value(result, row, "t.x"), e = rows[row].values.back(), d = x - 1;
+        const double slope = d < 0 ? -4 * d - 3 * d * d : 3 * d * d - 3 * d;
+        EXPECT_NEAR(slope, -e, 1e-9) << x;
+      }
+    }
+}
+
 /// Two bars of stiffness 1 under a weight: from a height of 0.4402 down it falls through without any load, and from
 /// there no load has anything to lose.
 TEST(DesignOfACollapse, IsToldWhereTheStartOfTheCaseVanishesOnTheWay) {
