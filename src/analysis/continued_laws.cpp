@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "springfold/continuation/numerics.hpp"
+#include "springfold/parameters/imperfection.hpp"
 #include "springfold/statics/shapes.hpp"
 #include "undefined.hpp"
 
@@ -103,6 +104,16 @@ continuation::Family ContinuedLaws::family() const {
       return continuation::ProblemView(*held->problem);
     };
   return family;
+}
+
+std::optional<double> ContinuedLaws::bend_of_branch(
+    const continuation::CriticalStart& point) const {
+  if (point.kind != continuation::CriticalKind::branch_point || point.corank != 1)
+    return std::nullopt;
+  const auto form = continuation::reduced_form(family(), point, {Vector::Zero(point.x.size()), 1});
+  if (!form || form->by_lambda.size() != 1 || !continuation::is_symmetric_point(*form))
+    return std::nullopt;
+  return form->cubic[0](0, 0) / form->mixed(0, 0);
 }
 
 std::optional<ContinuedLaws::Place> ContinuedLaws::place_of(const Law& law,

@@ -26,6 +26,9 @@ class ContinuedLaws {
   bool cross_at(const continuation::CriticalPoint& point);
   /// The equations with the laws as they are held; as the case has them where none bends. Valid as long as this is.
   continuation::Family family() const;
+  /// Of a symmetric branch point, with the laws as they are held: how the branch that leaves bends, above zero to one
+  /// side of lambda. Nothing at other points.
+  std::optional<double> bend_of_branch(const continuation::CriticalStart& point) const;
   /// The ends of the parts, as events that stop the curve there. Valid as long as this is.
   std::vector<continuation::CriticalEvent> ends() const;
   /// Has the event ended a curve on a bend?

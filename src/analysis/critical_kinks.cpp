@@ -218,7 +218,11 @@ class Follower {
     end_here("the bend of a spring's law at " + curves_.name() + " = " +
              rounded(bend.mu * curves_.scale()));
     const bool grows = bend.dmu != 0 ? bend.dmu > 0 : growing;
-    if (++bends_ > most_bends || comes_round(bend) || !laws_.cross_at(bend)) return false;
+    if (++bends_ > most_bends || comes_round(bend)) return false;
+    const auto bent_before = laws_.bend_of_branch(moved_to(start_, bend));
+    if (!laws_.cross_at(bend)) return false;
+    const auto bent_behind =
+        bent_before ? laws_.bend_of_branch(moved_to(start_, bend)) : std::nullopt;
     for (const bool way : {grows, !grows}) {
       auto next = going_on(bend, way);
       const bool stays = !next || (next->bends && next->curve.points.size() < 2);
@@ -228,6 +232,8 @@ class Follower {
         curve.hits.push_back({.kind = merging(start_.kind), .point = bend});
       else if (rise * bend.dlambda < 0)
         curve.hits.push_back({.kind = continuation::Degeneracy::extremum, .point = bend});
+      if (bent_behind && *bent_before * *bent_behind < 0)
+        curve.hits.push_back({.kind = continuation::Degeneracy::bends_other_way, .point = bend});
       go_on(std::move(*next));
       return true;
     }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "case_runs.hpp"
 #include "springfold/analysis/design.hpp"
@@ -162,6 +163,35 @@ control = ")toml" + control + "\"\n")
         EXPECT_NEAR(slope, -e, 1e-9) << x;
       }
     }
+}
+
+/// Two steep bars with torque T(u) = u + 3 u^3 down to u = -0.11 and straight beyond: their apex sways at l T'/T =
+/// 1 - l^2, l their length there. Where this is at u = -0.11 the cubic term of the branch jumps, and its sign changes.
+TEST(BendingLaws, MakeABranchBendTheOtherWay) {
+  std::string text = "[parameters]\nh = 7\n";
+  for (const std::string foot : {"-1", "1"})
+    text += "[[node]]\nname = \"f" + foot + "\"\nat = [" + foot + ", 0]\nfixed = true\n";
+  text += "[[node]]\nname = \"apex\"\nat = [0, \"h\"]\n";
+  for (const std::string foot : {"-1", "1"})
+    text += "[[spring]]\nname = \"s" + foot + "\"\nfrom = \"f" + foot +
+            "\"\nto = \"apex\"\nlaw = { law = \"polynomial\", coefficients = [0, 1, 0, 3], range = "
+            "[-0.11, 0.11], falling = true, free = \"sqrt(1 + h^2)\" }\n";
+  const StudyResult result =
+      run(text +
+          "[[study]]\nname = \"s\"\nkind = \"critical_curve\"\ncontrol = \"load\"\ndirection = [0, "
+          "-1]\nuntil = { apex.y = [0, 30] }\ncritical_curve = { of = \"BP1\", parameter = \"h\", "
+          "range "
+          "= [3, 14] }\n")
+          .of("s");
+  EXPECT_TRUE(complete(result)) << testing::PrintToString(result.doubts);
+  const double steep = (1 + 9 * 0.11 * 0.11) / (0.11 + 3 * 0.11 * 0.11 * 0.11);
+  const double length = steep / 2 + std::sqrt(steep * steep / 4 + 1) + 0.11;
+  std::vector<double> found;
+  for (const auto& event : result.branches.at(0).events)
+    if (event.kind == analysis::EventKind::bends_other_way)
+      found.push_back(result.branches[0].samples[event.row].values.back());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0], std::sqrt(length * length - 1), 1e-9);
 }
 
 /// Two bars of stiffness 1 under a weight: from a height of 0.4402 down it falls through without any load, and from
