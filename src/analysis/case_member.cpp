@@ -1,5 +1,6 @@
 // One value of the parameter: its start, and what is made of it when it is asked for.
 #include "case_curves.hpp"
+#include "start.hpp"
 #include "undefined.hpp"
 
 namespace springfold::analysis {
