@@ -188,14 +188,6 @@ void judge(const ChainState& far, const ChainState& before, const ChainState& en
   found.is_end_of_reach |= has_grown(far, end) || forces_become_infinite(before, end);
 }
 
-/// Have the closures lost rank with what is driven let go, too?
-bool loses_rank_driven_or_not(const PathProblem& problem, const EndOfCurve& curve) {
-  const continuation::CurvePoint& end = curve.end;
-  const auto here = rank_at(problem, end.x, end.lambda, end.piece);
-  const auto there = largest_rank(problem, curve, true);
-  return here && there && here->smallest < fallen * *there;
-}
-
 /// The joints of no chain are stretched, but all of them together hardly move what is driven: a crank at its dead
 /// centre. Or they move on, but what they can do more than before meets forces that nothing balances.
 std::optional<StretchedChains> stopped_drive(const PathProblem& problem, const EndOfCurve& curve,
@@ -209,17 +201,16 @@ std::optional<StretchedChains> stopped_drive(const PathProblem& problem, const E
   if (!here || !before || !there || !(here->smallest < fallen * *there)) return std::nullopt;
   const std::string chains = words_for(problem.layout(), here->null);
   StretchedChains found;
-  found.moves_on = loses_rank_driven_or_not(problem, curve);
-  found.text =
-      found.moves_on
-          ? "the closures of " + chains +
-                " lose rank together here, a kinematic singularity: the joints can move on in more "
-                "ways than one, and what they transmit grows without bound; behind it another "
-                "curve "
-                "begins, from a start there"
-          : "the joints of " + chains +
-                " hardly move any further what is driven, and the forces in them grow without "
-                "bound";
+  // Their closures lose rank with what is driven let go, too.
+  found.moves_on = nears_kinematic_singularity(problem, curve).has_value();
+  found.text = found.moves_on
+                   ? "the closures of " + chains +
+                         " lose rank together here, a kinematic singularity: the joints can move "
+                         "on in more ways than one, and what they transmit grows without bound; "
+                         "behind it another curve begins, from a start there"
+                   : "the joints of " + chains +
+                         " hardly move any further what is driven, and the forces in them grow "
+                         "without bound";
   judge({*there, whole_wrench(far)},
         {before->smallest, whole_wrench(states_of_chains(problem, curve.before))},
         {here->smallest, whole_wrench(states)}, found);

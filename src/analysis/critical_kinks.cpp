@@ -47,23 +47,6 @@ CriticalPoint on_line(const CriticalPoint& from, const CriticalPoint& slope, dou
   return guess;
 }
 
-/// What it is that two points of a kind merge at, where their curves leave a bend to the same side.
-continuation::Degeneracy merging(continuation::CriticalKind kind) {
-  using continuation::CriticalKind;
-  using continuation::Degeneracy;
-  switch (kind) {
-    case CriticalKind::limit_point:
-      return Degeneracy::cusp;
-    case CriticalKind::branch_point:
-      return Degeneracy::branch_points_merge;
-    case CriticalKind::surface:
-      return Degeneracy::touches_surface;
-    case CriticalKind::zero:
-      return Degeneracy::turn;
-  }
-  return Degeneracy::turn;
-}
-
 /// A curve up to just before a kink, to a bend of a law, or to its end.
 struct Stretch {
   CriticalCurve curve{};
@@ -229,7 +212,7 @@ class Follower {
       if (stays) continue;
       const double rise = next->curve.points.front().dlambda;
       if (way != grows)
-        curve.hits.push_back({.kind = merging(start_.kind), .point = bend});
+        curve.hits.push_back({.kind = continuation::turn_of(start_.kind), .point = bend});
       else if (rise * bend.dlambda < 0)
         curve.hits.push_back({.kind = continuation::Degeneracy::extremum, .point = bend});
       if (bent_behind && *bent_before * *bent_behind < 0)
@@ -278,9 +261,7 @@ class Follower {
 
   std::optional<Stretch> going_on(const CriticalPoint& first, bool growing) const {
     Stretch next = from_place(moved_to(start_, first), growing, curves_.start_enters_equations());
-    // Back at its own start, which lies behind a kink or on a bend: it turned where its slope jumps.
-    const bool comes_back = next.curve.stop == continuation::StopReason::closed;
-    return has_left(next) && !comes_back ? std::optional(std::move(next)) : std::nullopt;
+    return has_left(next) ? std::optional(std::move(next)) : std::nullopt;
   }
 
   bool differ(double a, double b) const {

@@ -230,16 +230,12 @@ CriticalPoint critical_point(const CurvePoint& p, Index n) {
 std::vector<Watch> watches_of(const Augmented& system, const std::vector<CriticalEvent>& events) {
   std::vector<Watch> watches;
   const CriticalKind kind = system.start().kind;
-  const Degeneracy turn = kind == CriticalKind::limit_point    ? Degeneracy::cusp
-                          : kind == CriticalKind::branch_point ? Degeneracy::branch_points_merge
-                          : kind == CriticalKind::surface      ? Degeneracy::touches_surface
-                                                               : Degeneracy::turn;
   std::function<Degeneracy(const CurvePoint&)> refine;
   if (kind == CriticalKind::limit_point)
     refine = [&system](const CurvePoint& p) { return turn_of_fold(system, p); };
   // A rate may be zero to rounding all along, or come to zero and keep its sign: at a cusp the whole tangent turns,
   // where either lambda or the parameter may be monotone.
-  watches.push_back({turn, "", [](const CurvePoint& p) { return p.tangent.dlambda; },
+  watches.push_back({turn_of(kind), "", [](const CurvePoint& p) { return p.tangent.dlambda; },
                      EventAction::record, refine});
   watches.back().noise = function_noise;
   const Index n = system.n();
@@ -269,6 +265,20 @@ std::vector<Watch> watches_of(const Augmented& system, const std::vector<Critica
     watches.back().tag = event.tag;
   }
   return watches;
+}
+
+Degeneracy turn_of(CriticalKind kind) {
+  switch (kind) {
+    case CriticalKind::limit_point:
+      return Degeneracy::cusp;
+    case CriticalKind::branch_point:
+      return Degeneracy::branch_points_merge;
+    case CriticalKind::surface:
+      return Degeneracy::touches_surface;
+    case CriticalKind::zero:
+      return Degeneracy::turn;
+  }
+  return Degeneracy::turn;
 }
 
 std::string_view to_string(Degeneracy kind) {

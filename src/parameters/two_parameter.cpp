@@ -162,7 +162,6 @@ class Follower {
     };
     std::vector<CurvePoint> middles;
     Curve curve = trace_with_middles(system, X, mu, ray, events, options_, observe, middles);
-    end_where_it_turned(system, back, length_, curve);
     const bool broken = lost && system.unfolding(curve.points.back().x) > kept_within;
     if (lost) leave_out_last(curve);
     if (back.found()) close(*back.found(), curve);

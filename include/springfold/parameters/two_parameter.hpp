@@ -164,4 +164,7 @@ std::optional<CriticalStart> hilltop_start(const Family& family, const CriticalS
 /// "cusp", "fold meets activation", ...
 std::string_view to_string(Degeneracy kind);
 
+/// What two points of a kind merge at, where the curve of them turns back in its parameter.
+Degeneracy turn_of(CriticalKind kind);
+
 }  // namespace springfold::continuation
