@@ -10,6 +10,8 @@ namespace {
 constexpr double roughly_met = 1e-3;
 /// The end of a rough search is followed if fewer other ends before it are better.
 constexpr int most_followed = 3;
+/// Where none of the starts leads to a design so many times as many are tried before it is said that none does.
+constexpr int times_before_no = 4;
 /// Two designs whose sizes differ by less are equally good: the first one is kept.
 constexpr double same_size = 1e-9;
 
@@ -84,15 +86,11 @@ std::vector<std::vector<Way>> DesignSearch::all_ways() const {
 }
 
 /// The case itself, then points spread over the bounds.
-std::vector<Vector> DesignSearch::starts() const {
-  std::vector<Vector> list{Vector::Zero(low_.size())};
-  for (int k = 1; k < study_.design.starts; ++k) {
-    Vector at(low_.size());
-    for (Index i = 0; i < at.size(); ++i)
-      at[i] = low_[i] + halton(k, base_of(i)) * (high_[i] - low_[i]);
-    list.push_back(at);
-  }
-  return list;
+Vector DesignSearch::start(int k) const {
+  Vector at = Vector::Zero(low_.size());
+  for (Index i = 0; k > 0 && i < at.size(); ++i)
+    at[i] = low_[i] + halton(k, base_of(i)) * (high_[i] - low_[i]);
+  return at;
 }
 
 std::optional<Assessment> DesignSearch::assess(const Vector& changes,
@@ -196,10 +194,16 @@ std::optional<DesignSearch::Candidate> DesignSearch::search_from(const std::vect
 
 std::vector<DesignSearch::Candidate> DesignSearch::candidates() {
   std::vector<Candidate> list;
-  for (const Vector& from : starts())
+  const auto is_met = [&] {
+    return std::any_of(list.begin(), list.end(),
+                       [](const Candidate& one) { return one.violation <= roughly_met; });
+  };
+  const double all = static_cast<double>(study_.design.starts) * times_before_no;
+  for (int k = 0; k < study_.design.starts || (k < all && !is_met()); ++k)
     for (const auto& ways : all_ways()) {
       if (stopped_) return {};
-      if (auto found = search_from(ways, from, Depth::roughly)) list.push_back(std::move(*found));
+      if (auto found = search_from(ways, start(k), Depth::roughly))
+        list.push_back(std::move(*found));
     }
   return list;
 }

@@ -48,7 +48,7 @@ class DesignSearch {
     bool is_sum = false;
   };
   std::vector<std::vector<Way>> all_ways() const;
-  std::vector<Vector> starts() const;
+  Vector start(int k) const;
   Vector to_variables(const Vector& changes) const;
   InequalityValues values_at(const Assessment& at, const Vector& v) const;
   /// Where a search ended.
@@ -65,7 +65,7 @@ class DesignSearch {
   double violation_at(const Vector& changes, const std::vector<Way>& ways);
   /// Looks for a design from one start. @returns nothing where the start cannot be judged
   std::optional<Candidate> search_from(const std::vector<Way>& ways, const Vector& from, Depth how);
-  /// All ways from every start, in this order.
+  /// All ways from every start, in this order; from more of them, one by one, until one leads to a design.
   std::vector<Candidate> candidates();
   bool is_better(const Candidate& a, const Candidate& b) const;
   bool misses_less(const Candidate& a, const Candidate& b) const;
