@@ -4,9 +4,28 @@
 
 namespace springfold::continuation {
 
-GrowingUnits::GrowingUnits(ProblemView problem)
+namespace {
+
+/// So many times stiffer than lambda's unit is what counts by its energy: softer it is, as any mechanism has it.
+constexpr double stiff_beside_lambda = 0x1p20;
+
+}  // namespace
+
+GrowingUnits::GrowingUnits(ProblemView problem, const Vector& x, double lambda, const Piece& piece)
     : problem_{problem}, measure_{problem.lambda_measure()} {
-  if (!is_plain()) moves_ = (problem.metric().array() > 0).cast<double>();
+  if (is_plain()) return;
+  moves_ = (problem.metric().array() > 0).cast<double>();
+  stiff_ = Vector::Zero(moves_.size());
+  count_by_energy(x, lambda, piece);
+}
+
+/// Structured problems keep their motions as they are.
+void GrowingUnits::count_by_energy(const Vector& x, double lambda, const Piece& piece) {
+  Linearisation at;
+  if (problem_.structured() || !linearise_densely(problem_, x, lambda, piece, at)) return;
+  const Matrix A = moves_.asDiagonal() * at.dF_dx * moves_.asDiagonal();
+  const Vector sizes = A.cwiseAbs().rowwise().maxCoeff() / stiff_beside_lambda;
+  stiff_ = (sizes.array() > 1).select(sizes, 0);
 }
 
 bool GrowingUnits::is_plain() const { return !std::isfinite(measure_.linear); }
@@ -24,11 +43,25 @@ double GrowingUnits::growth_of(double mu) const {
   return std::tanh((mu - measure_.centre) / measure_.linear) / measure_.linear;
 }
 
+Vector GrowingUnits::motions_at(double mu) const { return (1 + stiff_.array() / r_at(mu)).rsqrt(); }
+
 void GrowingUnits::put(const Vector& y, double mu) const {
   const double r = r_at(mu);
-  rows_ = (moves_.array() > 0).select(Vector::Constant(y.size(), 1 / r), 1);
-  columns_ = (moves_.array() > 0).select(Vector::Ones(y.size()), r);
+  columns_ = motions_at(mu);
+  rows_ = (moves_.array() > 0).select(columns_ / r, 1);
+  columns_ = (moves_.array() > 0).select(columns_, r);
   x_ = columns_.cwiseProduct(y);
+}
+
+/// Of c: half of the share of stiff / r in 1 + stiff / r. Of r itself: 1.
+Vector GrowingUnits::column_rates(double mu) const {
+  const Eigen::ArrayXd stiff = stiff_.array() / r_at(mu);
+  return (moves_.array() > 0).select(0.5 * stiff / (1 + stiff), 1);
+}
+
+/// Of c / r; rows of forces stay.
+Vector GrowingUnits::row_rates(double mu) const {
+  return (moves_.array() > 0).select(column_rates(mu).array() - 1, 0);
 }
 
 bool GrowingUnits::residual(const Vector& y, double mu, const Piece& piece, Vector& G) const {
@@ -38,15 +71,11 @@ bool GrowingUnits::residual(const Vector& y, double mu, const Piece& piece, Vect
   return true;
 }
 
-/// By mu: lambda grows, forces do, and the factors of the rows shrink.
-/// @param image  dG/dy times the forces among y   @param dG_dmu  holds dF/dlambda; at the place of put(), with F_
+/// By mu: lambda grows, forces and motions do, and the factors of the rows shrink.
+/// @param image  dG/dy times the rates of x at y, in parts of that of r   @param dG_dmu  holds dF/dlambda; at the place of put(), with F_
 void GrowingUnits::put_rate(double mu, const Vector& image, Vector& dG_dmu) const {
   dG_dmu = r_at(mu) * rows_.cwiseProduct(dG_dmu) +
-           growth_of(mu) * (image - moves_.cwiseProduct(rows_).cwiseProduct(F_));
-}
-
-Vector GrowingUnits::forces_of(const Vector& y) const {
-  return (moves_.array() > 0).select(Vector::Zero(y.size()), y);
+           growth_of(mu) * (image + row_rates(mu).cwiseProduct(rows_).cwiseProduct(F_));
 }
 
 bool GrowingUnits::derivatives(const Vector& y, double mu, const Piece& piece, Matrix& dG_dy,
@@ -55,7 +84,7 @@ bool GrowingUnits::derivatives(const Vector& y, double mu, const Piece& piece, M
   if (!problem_.equations(x_, lambda_at(mu), piece, F_, dG_dy, dG_dmu)) return false;
   dG_dy.array().colwise() *= rows_.array();
   dG_dy.array().rowwise() *= columns_.transpose().array();
-  put_rate(mu, dG_dy * forces_of(y), dG_dmu);
+  put_rate(mu, dG_dy * column_rates(mu).cwiseProduct(y), dG_dmu);
   return true;
 }
 
@@ -67,7 +96,7 @@ bool GrowingUnits::structured_derivatives(const Vector& y, double mu, const Piec
       !problem_.structured_derivatives(x_, lambda, piece, matrices_.next(), dG_dmu))
     return false;
   matrices_.put(rows_, columns_, dG_dy);
-  put_rate(mu, product(dG_dy, forces_of(y)), dG_dmu);
+  put_rate(mu, product(dG_dy, column_rates(mu).cwiseProduct(y)), dG_dmu);
   return true;
 }
 
@@ -81,7 +110,7 @@ bool GrowingUnits::switch_gradients(const Vector& y, double mu, Matrix& dg_dy,
   put(y, mu);
   if (!problem_.switch_gradients(x_, lambda_at(mu), dg_dy, dg_dmu)) return false;
   dg_dy.array().rowwise() *= columns_.transpose().array();
-  dg_dmu = (r_at(mu) * dg_dmu + growth_of(mu) * (dg_dy * forces_of(y))).eval();
+  dg_dmu = (r_at(mu) * dg_dmu + growth_of(mu) * (dg_dy * column_rates(mu).cwiseProduct(y))).eval();
   return true;
 }
 
@@ -89,7 +118,8 @@ CurvePoint GrowingUnits::inside(const Vector& x, double lambda) const {
   const auto [centre, linear] = measure_;
   CurvePoint at;
   at.lambda = centre + linear * std::asinh((lambda - centre) / linear);
-  at.x = (moves_.array() > 0).select(x, x / r_at(at.lambda));
+  const Vector motions = motions_at(at.lambda);
+  at.x = (moves_.array() > 0).select(x.cwiseQuotient(motions), x / r_at(at.lambda));
   return at;
 }
 
@@ -109,13 +139,13 @@ CurvePoint GrowingUnits::outside(CurvePoint point) const {
   return point;
 }
 
-// dlambda = r dmu,  dx_i = r (dy_i + r'/r y_i dmu) for unknowns of weight zero
+// dlambda = r dmu,  dx_i = f_i (dy_i + e_i r'/r y_i dmu), f the factors of the unknowns, e their rates in parts of r's
 Direction GrowingUnits::inside(Direction direction, const CurvePoint& at) const {
   const double r = r_at(at.lambda), growth = growth_of(at.lambda);
+  put(at.x, at.lambda);
   direction.dlambda /= r;
-  for (Index i = 0; i < at.x.size(); ++i)
-    if (moves_[i] == 0)
-      direction.dx[i] = direction.dx[i] / r - growth * at.x[i] * direction.dlambda;
+  direction.dx = direction.dx.cwiseQuotient(columns_) -
+                 growth * direction.dlambda * column_rates(at.lambda).cwiseProduct(at.x);
   const Vector weights = problem_.metric();
   const double length =
       std::sqrt(direction.dx.cwiseAbs2().dot(weights) + direction.dlambda * direction.dlambda);
@@ -126,9 +156,9 @@ Direction GrowingUnits::inside(Direction direction, const CurvePoint& at) const 
 
 Direction GrowingUnits::outside(Direction direction, const CurvePoint& at) const {
   const double r = r_at(at.lambda), growth = growth_of(at.lambda);
-  for (Index i = 0; i < at.x.size(); ++i)
-    if (moves_[i] == 0)
-      direction.dx[i] = r * (direction.dx[i] + growth * at.x[i] * direction.dlambda);
+  put(at.x, at.lambda);
+  direction.dx += growth * direction.dlambda * column_rates(at.lambda).cwiseProduct(at.x);
+  direction.dx.array() *= columns_.array();
   direction.dlambda *= r;
   return direction;
 }

@@ -32,7 +32,7 @@ constexpr std::array<double, 3> distances_beside{0, 1.0 / 128, 1.0 / 8};
 }  // namespace
 
 Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, const Piece& piece)
-    : growing_{problem},
+    : growing_{problem, x, lambda, piece},
       problem_{growing_.is_plain() ? problem : ProblemView(growing_)},
       start_{x},
       start_lambda_{lambda},
@@ -71,9 +71,11 @@ double Normalised::largest_that_stays(const Vector& x, double lambda, const Piec
   Matrix K = at.dF_dx;
   const double r = growing_.r_at(lambda + d) / growing_.r_at(lambda);
   const Vector weights = problem_.metric();
+  const Vector c = growing_.motions_at(lambda).cwiseQuotient(growing_.motions_at(lambda + d));
   for (Index j = 0; j < K.cols(); ++j)
     for (Index i = 0; i < K.rows(); ++i)
-      if (weights[i] > 0 && weights[j] > 0) K(i, j) = (r * aside.dF_dx(i, j) - K(i, j)) / d;
+      if (weights[i] > 0 && weights[j] > 0)
+        K(i, j) = (r * c[i] * c[j] * aside.dF_dx(i, j) - K(i, j)) / d;
   return std::max((force_.asDiagonal() * K * unit_.asDiagonal()).cwiseAbs().maxCoeff(),
                   force_.cwiseProduct(at.dF_dlambda).lpNorm<Eigen::Infinity>());
 }
