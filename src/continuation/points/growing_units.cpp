@@ -4,13 +4,6 @@
 
 namespace springfold::continuation {
 
-namespace {
-
-/// So many times stiffer than lambda's unit is what counts by its energy: softer it is, as any mechanism has it.
-constexpr double stiff_beside_lambda = 0x1p20;
-
-}  // namespace
-
 GrowingUnits::GrowingUnits(ProblemView problem, const Vector& x, double lambda, const Piece& piece)
     : problem_{problem}, measure_{problem.lambda_measure()} {
   if (is_plain()) return;
@@ -24,7 +17,7 @@ void GrowingUnits::count_by_energy(const Vector& x, double lambda, const Piece& 
   Linearisation at;
   if (problem_.structured() || !linearise_densely(problem_, x, lambda, piece, at)) return;
   const Matrix A = moves_.asDiagonal() * at.dF_dx * moves_.asDiagonal();
-  const Vector sizes = A.cwiseAbs().rowwise().maxCoeff() / stiff_beside_lambda;
+  const Vector sizes = A.cwiseAbs().rowwise().maxCoeff() / stiff_beside_others;
   stiff_ = (sizes.array() > 1).select(sizes, 0);
 }
 

@@ -6,6 +6,9 @@
 
 namespace springfold::continuation {
 
+/// So many times stiffer than others is what counts by its energy: softer it is, as any mechanism has it.
+inline constexpr double stiff_beside_others = 0x1p20;
+
 /// F(x, lambda) = 0 as LambdaMeasure wants it: mu instead of lambda, and with r = dlambda/dmu
 ///
 ///     x_i = r y_i    for unknowns of weight zero, forces that grow with lambda;  x_i = c_i y_i    for the others

@@ -46,8 +46,34 @@ Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, cons
   unit_ = problem.metric().unaryExpr(&unit_of);
   force_ = problem.symmetric() ? unit_ : Vector::Ones(n);
   surface_ = Vector::Ones(problem.switch_count());
+  if (growing_.is_plain()) count_by_energy(piece);
   scale_equations(start_, start_lambda_, piece);
   scale_switches(start_, start_lambda_);
+}
+
+/// One factor for all equations would let what is stiff decide how well the others are met. Its unknowns and rows get
+/// smaller units: f K f is no more than `stiff_beside_others` times the largest entry of the least row.
+void Normalised::count_by_energy(const Piece& piece) {
+  if (problem_.structured()) return;
+  const Index n = unit_.size();
+  const Vector moves = (problem_.metric().array() > 0).cast<double>();
+  Vector rows = Vector::Zero(n), stiff = Vector::Zero(n);
+  for (const double d : distances_beside) {
+    Linearisation at;
+    if (!linearise_densely(problem_, start_ + d * unit_, start_lambda_ + d, piece, at)) continue;
+    const Matrix K = (force_.asDiagonal() * at.dF_dx * unit_.asDiagonal()).cwiseAbs();
+    const Vector rates = force_.cwiseProduct(at.dF_dlambda).cwiseAbs();
+    if (n > 0) rows = rows.cwiseMax(K.rowwise().maxCoeff()).cwiseMax(rates);
+    if (n > 0) stiff = stiff.cwiseMax((K * moves.asDiagonal()).rowwise().maxCoeff());
+  }
+  const double least = (moves.array() > 0 && rows.array() > 0).select(rows, infinity).minCoeff() *
+                       stiff_beside_others;
+  for (Index i = 0; i < n; ++i) {
+    if (!(moves[i] > 0 && stiff[i] > least)) continue;
+    const double factor = 1 / power_of_two_near(std::sqrt(stiff[i] / least));
+    unit_[i] *= factor;
+    force_[i] *= factor;
+  }
 }
 
 /// Largest entry of [dG/dy dG/dlambda] at a point, 0 where there is none.

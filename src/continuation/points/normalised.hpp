@@ -17,7 +17,8 @@ namespace springfold::continuation {
 ///     x = unit * y,   G = force unit * F (symmetric problems: dG/dy stays symmetric)  or  force * F,
 ///     h_j = surface_j g_j
 ///
-/// The metric gives the units: its weights become numbers in [1, 4). The largest entry of [dG/dy dG/dlambda] at and
+/// The metric gives the units: its weights become numbers in [1, 4), but where unknowns count by their energy, which
+/// keep their weight in x. The largest entry of [dG/dy dG/dlambda] at and
 /// near the start becomes about 1, and so does the gradient of each h_j. Unknowns of weight zero keep their unit.
 /// lambda and the arc length are the caller's, but where the problem has lambda measured otherwise (LambdaMeasure): mu
 /// stands inside for lambda then, and tangents outside are rates by the arc length of y and mu.
@@ -69,6 +70,7 @@ class Normalised {
   void scale(Matrix& dG_dy, Vector& dG_dlambda) const;
   double largest_at(const Vector& x, double lambda, const Piece& piece) const;
   double largest_that_stays(const Vector& x, double lambda, const Piece& piece) const;
+  void count_by_energy(const Piece& piece);
   void scale_equations(const Vector& x, double lambda, const Piece& piece);
   void scale_switches(const Vector& x, double lambda);
 
