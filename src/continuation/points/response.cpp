@@ -186,19 +186,22 @@ bool is_broken_promise(ProblemView problem, const Vector& x, double lambda, cons
 
 /// |dlambda| for |dx| = 1 along the parabola of a curve that turns just beside the point: through it and a corrected
 /// point `clear_motion` away on both sides. Where its vertex lies within twice that, what the tangent says holds
-/// nowhere else.
+/// nowhere else. Points that no parabola goes through lie on two branches, as beside an imperfect branch point.
 /// @returns nothing where the curve goes on straight
 std::optional<double> bend_beside(ProblemView problem, const Vector& x, double lambda,
                                   const Piece& piece, const Vector& dx, double moved) {
   const Vector weights = problem.metric();
   const Direction along{dx / moved, 0};
-  double change = 0;
+  constexpr double about = 0.5;
+  double change = 0, odd = -clear_motion / moved;
   for (const double side : {-clear_motion, clear_motion}) {
     const NewtonResult there = correct(problem, weights, x + side * along.dx, lambda, piece, along,
                                        NewtonOptions{.maximum_iterations = 12});
     if (!converged(there)) return std::nullopt;
     change += 0.5 * (there.lambda - lambda);
+    odd += std::copysign(0.5, side) * (there.lambda - lambda);
   }
+  if (!(std::abs(odd) <= about * std::abs(change))) return std::nullopt;
   const double bend = std::abs(change) / (clear_motion * clear_motion);
   return 2 * bend * moved * 2 * clear_motion >= 1 ? std::optional(bend) : std::nullopt;
 }
