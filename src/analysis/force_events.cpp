@@ -50,6 +50,26 @@ bool stands_still_beside(const Hit& place, const continuation::Curve& curve,
   return is_still(behind, points.end()) || is_still(before, points.rend());
 }
 
+/// What is stable under its load is so if the displacement along the load is driven: between two stable points with
+/// nothing else between them that cannot turn back, and a change of its rate's sign is rounding.
+bool is_between_stable_points(const Hit& place, const continuation::Curve& curve,
+                              const Evaluator& evaluator) {
+  const auto& points = curve.points;
+  const auto behind = std::find_if(points.begin(), points.end(), [&](const auto& point) {
+    return point.s > place.point.s + same_hit;
+  });
+  const auto before = std::find_if(points.rbegin(), points.rend(), [&](const auto& point) {
+    return point.s < place.point.s - same_hit;
+  });
+  if (behind == points.end() || before == points.rend()) return false;
+  const bool is_alone = std::none_of(curve.hits.begin(), curve.hits.end(), [&](const Hit& hit) {
+    return hit.kind != HitKind::user && before->s <= hit.point.s && hit.point.s <= behind->s;
+  });
+  const QuantityDefinition index{QuantityDefinition::Kind::index, 0, "index", Unit::none, 1};
+  return is_alone && evaluator.unstable_modes(index, *before) == 0 &&
+         evaluator.unstable_modes(index, *behind) == 0;
+}
+
 }  // namespace
 
 continuation::Event dead_load_event(const Evaluator& evaluator) {
@@ -91,6 +111,9 @@ continuation::Curve with_merged_force_events(continuation::Curve curve,
       hit.name += ", the force turns back";
       hit.tag = force_limit;
     }
+  std::erase_if(curve.hits, [&](const Hit& hit) {
+    return has_tag(hit, driven_change) && is_between_stable_points(hit, curve, evaluator);
+  });
   const auto is_more = [&](const Hit& place) {
     return is_met_at(place, curve.hits, [&](const Hit& hit) {
       return is_force_limit(place) ? hit.kind == HitKind::branch_point
