@@ -83,7 +83,8 @@ TEST(OrdersOfStiffness, LetAColumnPressedAskewBendBesideItsSoftestSpring) {
       for (std::size_t row = 0; row < result.branches.at(0).samples.size(); ++row) {
         EXPECT_EQ(value(result, row, "index"), 0) << foot << " " << aside;
         const double q = value(result, row, "a.q1"), lambda = value(result, row, "lambda");
-        const double moment = 2 * lambda * (std::sin(q) - aside * std::cos(q));
+        const double moment =
+            2 * lambda / std::hypot(1, aside) * (std::sin(q) - aside * std::cos(q));
         EXPECT_NEAR(moment / foot, q, 1e-8 * std::max(1.0, std::abs(2 * lambda / foot)))
             << foot << " " << aside;
       }
