@@ -6,8 +6,8 @@
 
 namespace springfold::continuation {
 
-/// So many times stiffer than others is what counts by its energy: softer it is, as any mechanism has it.
-inline constexpr double stiff_beside_others = 0x1p20;
+/// So many times stiffer than others is what counts by its energy. Less is as any mechanism has it.
+inline constexpr double stiff_beside_others = 0x1p10;
 
 /// F(x, lambda) = 0 as LambdaMeasure wants it: mu instead of lambda, and with r = dlambda/dmu
 ///

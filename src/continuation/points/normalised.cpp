@@ -46,25 +46,41 @@ Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, cons
   unit_ = problem.metric().unaryExpr(&unit_of);
   force_ = problem.symmetric() ? unit_ : Vector::Ones(n);
   surface_ = Vector::Ones(problem.switch_count());
-  if (growing_.is_plain()) count_by_energy(piece);
-  scale_equations(start_, start_lambda_, piece);
+  scale_equations(piece);
   scale_switches(start_, start_lambda_);
+}
+
+/// Largest entry of [dG/dy dG/dlambda], of a problem with unknowns.
+double Normalised::largest_in(const Linearisation& at) const {
+  const double rate = force_.cwiseProduct(at.dF_dlambda).cwiseAbs().maxCoeff();
+  if (at.structured) return std::max(rate, scaled(*at.structured, force_, unit_).largest);
+  const Matrix K = force_.asDiagonal() * at.dF_dx * unit_.asDiagonal();
+  return std::max(rate, K.cwiseAbs().maxCoeff());
+}
+
+/// Where the equations are looked at: at the start and beside it.
+std::vector<Linearisation> Normalised::about_start(const Piece& piece) const {
+  std::vector<Linearisation> list;
+  for (const double d : distances_beside) {
+    Linearisation at;
+    if (unit_.size() > 0 && linearise(problem_, start_ + d * unit_, start_lambda_ + d, piece, at))
+      list.push_back(std::move(at));
+  }
+  return list;
 }
 
 /// One factor for all equations would let what is stiff decide how well the others are met. Its unknowns and rows get
 /// smaller units: f K f is no more than `stiff_beside_others` times the largest entry of the least row.
-void Normalised::count_by_energy(const Piece& piece) {
-  if (problem_.structured()) return;
+void Normalised::count_by_energy(const std::vector<Linearisation>& about) {
+  if (problem_.structured() || about.empty()) return;
   const Index n = unit_.size();
   const Vector moves = (problem_.metric().array() > 0).cast<double>();
   Vector rows = Vector::Zero(n), stiff = Vector::Zero(n);
-  for (const double d : distances_beside) {
-    Linearisation at;
-    if (!linearise_densely(problem_, start_ + d * unit_, start_lambda_ + d, piece, at)) continue;
+  for (const Linearisation& at : about) {
     const Matrix K = (force_.asDiagonal() * at.dF_dx * unit_.asDiagonal()).cwiseAbs();
     const Vector rates = force_.cwiseProduct(at.dF_dlambda).cwiseAbs();
-    if (n > 0) rows = rows.cwiseMax(K.rowwise().maxCoeff()).cwiseMax(rates);
-    if (n > 0) stiff = stiff.cwiseMax((K * moves.asDiagonal()).rowwise().maxCoeff());
+    rows = rows.cwiseMax(K.rowwise().maxCoeff()).cwiseMax(rates);
+    stiff = stiff.cwiseMax((K * moves.asDiagonal()).rowwise().maxCoeff());
   }
   const double least = (moves.array() > 0 && rows.array() > 0).select(rows, infinity).minCoeff() *
                        stiff_beside_others;
@@ -74,16 +90,6 @@ void Normalised::count_by_energy(const Piece& piece) {
     unit_[i] *= factor;
     force_[i] *= factor;
   }
-}
-
-/// Largest entry of [dG/dy dG/dlambda] at a point, 0 where there is none.
-double Normalised::largest_at(const Vector& x, double lambda, const Piece& piece) const {
-  Linearisation at;
-  if (unit_.size() == 0 || !linearise(problem_, x, lambda, piece, at)) return 0;
-  double largest = force_.cwiseProduct(at.dF_dlambda).cwiseAbs().maxCoeff();
-  if (at.structured) return std::max(largest, scaled(*at.structured, force_, unit_).largest);
-  const Matrix K = force_.asDiagonal() * at.dF_dx * unit_.asDiagonal();
-  return std::max(largest, K.cwiseAbs().maxCoeff());
 }
 
 /// The same of what is left where lambda is orders of magnitude larger than at the start: of all but the stiffness that
@@ -106,11 +112,13 @@ double Normalised::largest_that_stays(const Vector& x, double lambda, const Piec
                   force_.cwiseProduct(at.dF_dlambda).lpNorm<Eigen::Infinity>());
 }
 
-void Normalised::scale_equations(const Vector& x, double lambda, const Piece& piece) {
-  double largest = growing_.is_plain() ? 0 : largest_that_stays(x, lambda, piece);
-  if (!(largest > 0))
-    for (const double d : distances_beside)
-      largest = std::max(largest, largest_at(x + d * unit_, lambda + d, piece));
+void Normalised::scale_equations(const Piece& piece) {
+  double largest = growing_.is_plain() ? 0 : largest_that_stays(start_, start_lambda_, piece);
+  if (!(largest > 0)) {
+    const std::vector<Linearisation> about = about_start(piece);
+    if (growing_.is_plain()) count_by_energy(about);
+    for (const Linearisation& at : about) largest = std::max(largest, largest_in(at));
+  }
   force_ /= power_of_two_near(largest);
 }
 
@@ -118,7 +126,9 @@ double Normalised::growth(const Piece& piece) const {
   if (piece == start_piece_) return 1;
   for (const auto& [known, growth] : growths_)
     if (known == piece) return growth;
-  const double growth = std::max(1.0, largest_at(start_, start_lambda_, piece));
+  Linearisation at;
+  const bool is_known = unit_.size() > 0 && linearise(problem_, start_, start_lambda_, piece, at);
+  const double growth = is_known ? std::max(1.0, largest_in(at)) : 1;
   growths_.emplace_back(piece, growth);
   return growth;
 }

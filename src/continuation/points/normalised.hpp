@@ -68,10 +68,11 @@ class Normalised {
   Vector in_units(const Vector& x) const { return x.cwiseQuotient(unit_); }
   CurvePoint in_own(CurvePoint point) const;
   void scale(Matrix& dG_dy, Vector& dG_dlambda) const;
-  double largest_at(const Vector& x, double lambda, const Piece& piece) const;
+  double largest_in(const Linearisation& at) const;
+  std::vector<Linearisation> about_start(const Piece& piece) const;
   double largest_that_stays(const Vector& x, double lambda, const Piece& piece) const;
-  void count_by_energy(const Piece& piece);
-  void scale_equations(const Vector& x, double lambda, const Piece& piece);
+  void count_by_energy(const std::vector<Linearisation>& about);
+  void scale_equations(const Piece& piece);
   void scale_switches(const Vector& x, double lambda);
 
   GrowingUnits growing_;  ///< used where lambda is not measured as it is
