@@ -72,7 +72,8 @@ TEST(OrdersOfStiffness, HaveBothBucklingLoadsOfAColumnThirtyOrdersApart) {
   }
 }
 
-/// k q = 2 lambda (sin q - a cos q) with the other hinge as good as rigid: the column leans more and more, and is stable.
+/// k q = 2 lambda (sin q - a cos q) with the other hinge as good as rigid: the column leans more and more, and is
+/// stable.
 TEST(OrdersOfStiffness, LetAColumnPressedAskewBendBesideItsSoftestSpring) {
   for (const double foot : {1e-18, 5e-27})
     for (const double aside : {4e-5, 0.02}) {

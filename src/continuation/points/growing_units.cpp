@@ -1,6 +1,7 @@
 #include "continuation/points/growing_units.hpp"
 
 #include <cmath>
+#include <vector>
 
 namespace springfold::continuation {
 
@@ -12,13 +13,35 @@ GrowingUnits::GrowingUnits(ProblemView problem, const Vector& x, double lambda, 
   count_by_energy(x, lambda, piece);
 }
 
-/// Structured problems keep their motions as they are.
+/// Largest stiffness in the row of each motion that every piece has which one switch alone, or all of them, lead to.
+/// @returns nothing where derivatives are not defined
+std::optional<Vector> GrowingUnits::lasting_stiffness(const Vector& x, double lambda,
+                                                      const Piece& piece) const {
+  std::vector<Piece> pieces{piece, Piece(piece.size(), -1), Piece(piece.size(), 1)};
+  for (std::size_t j = 0; j < piece.size(); ++j) {
+    pieces.push_back(piece);
+    pieces.back()[j] = static_cast<Piece::value_type>(-piece[j]);
+  }
+  std::optional<Vector> least;
+  for (const Piece& one : pieces) {
+    Linearisation at;
+    if (!linearise_densely(problem_, x, lambda, one, at)) return std::nullopt;
+    const Matrix A = moves_.asDiagonal() * at.dF_dx * moves_.asDiagonal();
+    const Vector sizes = A.cwiseAbs().rowwise().maxCoeff();
+    least = least ? Vector(least->cwiseMin(sizes)) : sizes;
+    if (!(least->array() > stiff_beside_others).any()) break;
+  }
+  return least;
+}
+
+/// Structured problems keep their motions as they are. So does what is stiff in one piece alone: in the others it would
+/// move for orders of magnitude longer than others do.
 void GrowingUnits::count_by_energy(const Vector& x, double lambda, const Piece& piece) {
-  Linearisation at;
-  if (problem_.structured() || !linearise_densely(problem_, x, lambda, piece, at)) return;
-  const Matrix A = moves_.asDiagonal() * at.dF_dx * moves_.asDiagonal();
-  const Vector sizes = A.cwiseAbs().rowwise().maxCoeff() / stiff_beside_others;
-  stiff_ = (sizes.array() > 1).select(sizes, 0);
+  if (problem_.structured() || x.size() == 0) return;
+  if (const auto stiffness = lasting_stiffness(x, lambda, piece)) {
+    const Vector sizes = *stiffness / stiff_beside_others;
+    stiff_ = (sizes.array() > 1).select(sizes, 0);
+  }
 }
 
 bool GrowingUnits::is_plain() const { return !std::isfinite(measure_.linear); }
@@ -65,7 +88,8 @@ bool GrowingUnits::residual(const Vector& y, double mu, const Piece& piece, Vect
 }
 
 /// By mu: lambda grows, forces and motions do, and the factors of the rows shrink.
-/// @param image  dG/dy times the rates of x at y, in parts of that of r   @param dG_dmu  holds dF/dlambda; at the place of put(), with F_
+/// @param image  dG/dy times the rates of x at y, in parts of that of r @param dG_dmu holds dF/dlambda; at the place of
+///               put(), with F_
 void GrowingUnits::put_rate(double mu, const Vector& image, Vector& dG_dmu) const {
   dG_dmu = r_at(mu) * rows_.cwiseProduct(dG_dmu) +
            growth_of(mu) * (image + row_rates(mu).cwiseProduct(rows_).cwiseProduct(F_));

@@ -1,6 +1,8 @@
 // A problem whose lambda is measured in parts of itself. Private to the engine.
 #pragma once
 
+#include <optional>
+
 #include "springfold/continuation/curve.hpp"
 #include "springfold/continuation/problem.hpp"
 
@@ -18,9 +20,10 @@ inline constexpr double stiff_beside_others = 0x1p10;
 ///               [      1 ] [ B  C  ] [    r ]   [ B c      C r  ]      stays so
 ///
 /// A matrix A that grows with lambda, and forces that do, are then of moderate size all along. What is stiff beside
-/// lambda all the same, and stays as it is, is counted in the root of its energy until lambda has grown up to it:
-/// c_i = 1 / sqrt(1 + k_i / (r stiff)), k_i the largest entry of A's row at the start. Curves are the same ones; their
-/// tangents inside are rates by an arc length in which mu stands for lambda, and y for x.
+/// lambda all the same, and stays as it is, is counted in the root of its energy until lambda has grown up to it: c_i =
+/// 1 / sqrt(1 + k_i / (r stiff)), k_i the largest entry of A's row at the start, as far as it is there in all pieces.
+/// Curves are the same ones; their tangents inside are rates by an arc length in which mu stands for lambda, and y for
+/// x.
 class GrowingUnits {
  public:
   /// @param x, lambda, piece  of a point of the curve, as the caller has them
@@ -62,6 +65,7 @@ class GrowingUnits {
   double growth_of(double mu) const;  ///< dr/dmu, relative to r
   void put(const Vector& y, double mu) const;
   void put_rate(double mu, const Vector& image, Vector& dG_dmu) const;
+  std::optional<Vector> lasting_stiffness(const Vector& x, double lambda, const Piece& piece) const;
   void count_by_energy(const Vector& x, double lambda, const Piece& piece);
   /// Rates of the logarithms of the factors of unknowns and rows, in parts of that of r.
   Vector column_rates(double mu) const;
