@@ -202,8 +202,12 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
   const std::vector<Index> resting = resting_switches(walker, progress.here, kink.point);
   hit.switches = crossed(kink, resting, rays.rays);
   hit.name = names_of(walker.problem, hit.switches);
-  const Beside before =
-      arriving ? *arriving : beside(walker, hit.point, -1, hit.point.s - progress.here.s);
+  // Along a family lambda stands still, whatever rounding makes of its rate.
+  const bool ends_family = open_family(hit.point, curve) != nullptr;
+  const Beside before = arriving ? *arriving
+                        : ends_family
+                            ? Beside{hit.point, 0}
+                            : beside(walker, hit.point, -1, hit.point.s - progress.here.s);
   if (before.moved) hit.point.negative = before.point.negative;
   if (before.sense == 0) hit.point.negative.reset();
   const std::vector<Beside> after = add_leaving(walker, rays.rays, kink.active.size() > 1, hit);
@@ -214,9 +218,10 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
     curve.hits.push_back(std::move(hit));
     return Outcome::stop;
   }
-  const int arrived = before.sense != 0               ? before.sense
-                      : told_from_zero(progress.here) ? sense_of(progress.here)
-                                                      : progress.sense;
+  const bool has_sense = !ends_family && told_from_zero(progress.here);
+  const int arrived = before.sense != 0 ? before.sense
+                      : has_sense       ? sense_of(progress.here)
+                                        : progress.sense;
   const Beside& next = after.front();
   const auto turns = before.sense * next.sense == 0 ? turns_by_counts(walker, kink, rays.rays)
                                                     : std::optional<bool>{};

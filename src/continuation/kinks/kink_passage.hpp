@@ -49,6 +49,9 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
 /// several times within its rounding: it becomes unresolved.
 void settle_families(Curve& curve);
 
+/// The family that reaches as far as this point; nullptr where there is none.
+Hit* open_family(const CurvePoint& from, Curve& curve);
+
 /// Smooth special points on the step progress.here -> end, with what events_on_step() does not know:
 ///  - none within a fold that belongs to a kink at either end;
 ///  - where lambda stands still along the whole step, a family instead of limit and branch points;

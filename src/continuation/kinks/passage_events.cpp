@@ -15,14 +15,14 @@
 #include "springfold/core/sampling.hpp"
 
 namespace springfold::continuation {
-namespace {
 
-/// The family that reaches as far as this point.
 Hit* open_family(const CurvePoint& from, Curve& curve) {
   for (auto hit = curve.hits.rbegin(); hit != curve.hits.rend(); ++hit)
     if (hit->kind == HitKind::family && hit->s_after >= from.s) return &*hit;
   return nullptr;
 }
+
+namespace {
 
 /// What an error of size 1 in the equations' rates along the tangent makes of lambda's.
 double freedom_of_rate(const Walker& walker, const CurvePoint& p) {
