@@ -56,6 +56,8 @@ Switches Evaluator::resting_at(const continuation::CurvePoint& point,
 std::optional<RestingIndex> Evaluator::resting_index_of(Kind kind,
                                                         const continuation::CurvePoint& point,
                                                         const KnownSwitches& known) const {
+  // Under dead load both are one count: what rounding makes of two matrices is not to part them.
+  if (kind == Kind::index && control_ == ControlMode::load) kind = Kind::index_force;
   if (stages_ || !problem_.symmetric()) return std::nullopt;
   const Switches resting = resting_at(point, known);
   if (resting.empty()) return std::nullopt;

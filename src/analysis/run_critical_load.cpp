@@ -43,6 +43,11 @@ class LoadsOverParameter {
         width_{high_ - low_} {
     const int n = study.critical.values;
     for (int i = 0; i < n; ++i) grid_.push_back(i + 1 == n ? high_ : low_ + width_ * i / (n - 1));
+    for (const Mark& mark : study.marks) {
+      const double at = mark.value / curves.scale();
+      if (mark.quantity == curves.name() && low_ < at && at < high_) grid_.push_back(at);
+    }
+    std::ranges::sort(grid_);
   }
 
   void run() {

@@ -59,6 +59,12 @@ TEST(LoadsOfOneValue, AValueWhoseBranchPointNoNeighbourHasIsARowOfItsOwn) {
   EXPECT_NEAR(load_at(result.branches[2].samples.front()), load_of_tilted, 1e-9);
 }
 
+TEST(LoadsOfOneValue, AMarkedValueIsLookedAtToo) {
+  const auto result =
+      run(tilted_strut("range = [-0.1, 0.1], values = 4 }\nmark = { e = [0] ")).of("tilt");
+  expect_lone_branch_point(result);
+}
+
 TEST(LoadsOfOneValue, AtTheEndOfTheRangeTheValueHasNotTheLoadThatItsNeighboursComeTo) {
   for (const std::string range :
        {"range = [0, 0.1], values = 4", "range = [-0.1, 0], values = 4"}) {
