@@ -218,6 +218,8 @@ bool has_unresolved(const StudyResult& result) {
 /// for.
 /// @param empty  what is known before
 StudyResult run_in_growing_units(const Begun& begun, InUnits units, const StudyResult& empty) {
+  std::optional<InUnits> finest;
+  if (is_of_many_sizes(range_of_lambda(begun.study, units.setup))) finest = units;
   std::optional<InUnits> before_steep;
   double largest = largest_change_of_lambda_unit;
   for (;;) {
@@ -236,10 +238,12 @@ StudyResult run_in_growing_units(const Begun& begun, InUnits units, const StudyR
                           units.setup);
       continue;
     }
-    if (!before_steep || begun.trace_by || !has_unresolved(result)) return result;
-    measure_lambda_in_parts(before_steep->setup);
+    if (begun.trace_by || !has_unresolved(result)) return result;
+    std::optional<InUnits> parts = before_steep ? std::move(before_steep) : std::move(finest);
+    if (!parts) return result;
+    measure_lambda_in_parts(parts->setup);
     StudyResult in_parts = empty;
-    run_in_units(begun, *before_steep, 1, in_parts);
+    run_in_units(begun, *parts, 1, in_parts);
     return complete(in_parts) ? in_parts : result;
   }
 }

@@ -295,8 +295,9 @@ PieceBefore piece_before(const Walker& walker, const std::vector<Event>& events,
   std::erase_if(back.met, [&](const Hit& hit) {
     return hit.kind == HitKind::user && hit.point.s >= *found - tolerance;
   });
+  // As near to the junction as its place is told the last point may lie on any of its branches.
   for (auto p = back.curve.points.rbegin(); p != back.curve.points.rend(); ++p)
-    if (p->s > 0 && p->s < *found) piece.points.push_back(turned(*p, *found));
+    if (p->s > 0 && p->s < *found - tolerance) piece.points.push_back(turned(*p, *found));
   for (auto h = back.met.rbegin(); h != back.met.rend(); ++h)
     piece.hits.push_back(turned(*h, *found, events));
   return piece;
