@@ -229,6 +229,11 @@ std::vector<double> Evaluator::values(const std::vector<QuantityDefinition>& qua
     if (quantities[i].kind == Kind::index) index = values[i];
     if (quantities[i].kind == Kind::index_driven) values[i] = driven_index(point, index, known);
   }
+  // Under dead load both are one count; where the curve knows none, as along a family, one matrix tells rounding.
+  const auto is_index = [](const QuantityDefinition& q) { return q.kind == Kind::index; };
+  if (control_ == ControlMode::load && std::ranges::any_of(quantities, is_index))
+    for (std::size_t i = 0; i < quantities.size(); ++i)
+      if (quantities[i].kind == Kind::index_force) values[i] = index;
   return values;
 }
 
