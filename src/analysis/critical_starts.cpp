@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "branch_rows.hpp"
 #include "limits.hpp"
 #include "springfold/continuation/newton.hpp"
+#include "springfold/core/decompositions.hpp"
+#include "springfold/core/equilibration.hpp"
 #include "switching_starts.hpp"
 
 namespace springfold::analysis {
@@ -43,6 +46,44 @@ continuation::StateFunction column_rate_of(const CaseCurves& curves, const Curve
                    const QuantityDefinition& quantity = *at_point.member->quantity(column);
                    return at_point.evaluator->rate(quantity, point).value;
                  });
+}
+
+/// Of the displacement along the load.
+continuation::StateFunction displacement_rate_of(const CaseCurves& curves, const CurvePoint& at) {
+  return rate_of(curves, at.piece, {Vector::Zero(at.x.size()), 1},
+                 [](const CaseCurves::Followed& at_point, const CurvePoint& point) {
+                   return at_point.evaluator->displacement_rate(point).value;
+                 });
+}
+
+/// Zero where under the same loads, with no body held, another number of modes is unstable: of the matrix of all
+/// motions, rows and columns as at the first place that is asked for, the determinant's sign over the norm of the
+/// inverse. Smooth, and as large as the least eigenvalue but for a factor.
+continuation::StateFunction dead_load_value_of(const CaseCurves& curves, const Piece& piece) {
+  return [&curves, piece, factors = std::make_shared<Vector>()](
+             const Vector& x, double lambda, double mu) -> std::optional<double> {
+    const auto followed = curves.followed_at(mu);
+    if (!followed) return std::nullopt;
+    const PathProblem& problem = *followed->problem;
+    statics::Workspace work;
+    Vector z, r;
+    Matrix A;
+    const statics::System& system = problem.turned_to_pose(x, lambda, z);
+    if (!equilibrium_matrix(system, piece, z, problem.inputs(lambda), work, r, A))
+      return std::nullopt;
+    if (factors->size() == 0) *factors = equilibrate(A).rows;
+    const Lu lu(factors->asDiagonal() * A * factors->asDiagonal());
+    const double size = lu.sign() == 0 ? 0 : lu.inverse().norm();
+    return size > 0 && std::isfinite(size) ? lu.sign() / size : 0.0;
+  };
+}
+
+/// What is zero at a change of stability, along its curve. Nothing where it is not known.
+continuation::StateFunction stability_value_of(const CaseCurves& curves, const SpecialPoint& point,
+                                               const CurvePoint& at) {
+  if (point.hit.tag == driven_change) return displacement_rate_of(curves, at);
+  if (point.hit.tag == dead_load_change) return dead_load_value_of(curves, at.piece);
+  return {};
 }
 
 /// Which of the study's extrema is this?
@@ -161,12 +202,17 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
       why = point.label + ": several marks of " + hit.name +
             " have one value in the case, and the parameter parts them";
       return std::nullopt;
+    case EventKind::stability_change:
+      start.kind = CriticalKind::zero;
+      start.value = stability_value_of(curves, point, hit.point);
+      if (start.value) return start;
+      break;
     default:
       break;
   }
   why = point.label +
         " is of a kind that is not followed: need a limit point, branch point, corner, " +
-        "activation, marked value or extremum";
+        "activation, change of stability, marked value or extremum";
   return std::nullopt;
 }
 
@@ -189,8 +235,9 @@ std::vector<CriticalStart> critical_starts_again(const CaseCurves& curves, const
                                                  const SpecialPoint& point, CriticalStart same) {
   if (same.kind == CriticalKind::zero) {
     const CurvePoint here{.x = same.x, .lambda = same.lambda, .piece = same.piece};
-    same.value = point.kind == EventKind::limit_point
-                     ? force_rate_of(curves, here)
+    same.value = point.kind == EventKind::limit_point ? force_rate_of(curves, here)
+                 : point.kind == EventKind::stability_change
+                     ? stability_value_of(curves, point, here)
                      : marked_value_on(curves, member, point, same.piece);
   }
   if (same.kind != CriticalKind::surface) return {std::move(same)};

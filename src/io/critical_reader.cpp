@@ -59,7 +59,7 @@ std::vector<NumberId> read_range(StudyKind kind, const TableReader& table, Numbe
 
 /// Is this the label of a special point of a kind that is followed?
 bool is_followed(const std::string& label) {
-  constexpr std::array<std::string_view, 7> codes{"LP", "BP", "CL", "SA", "KB", "KS", "UZ"};
+  constexpr std::array<std::string_view, 8> codes{"LP", "BP", "CL", "SA", "KB", "KS", "SC", "UZ"};
   const std::string_view code = std::string_view{label}.substr(0, 2);
   return std::find(codes.begin(), codes.end(), code) != codes.end() && label.size() > 2 &&
          std::all_of(label.begin() + 2, label.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -78,7 +78,8 @@ std::string problem_of_point(const std::string& point) {
   const auto row = curve_row(point);
   if (!row && !is_followed(point))
     return "got \"" + point +
-           "\", need LP, BP, CL, SA, KB, KS or UZ and a number, or a row of another curve such as "
+           "\", need LP, BP, CL, SA, KB, KS, SC or UZ and a number, or a row of another curve such "
+           "as "
            "\"STUDY/UZ1\"";
   if (row && !is_row(row->label))
     return "got \"" + point +

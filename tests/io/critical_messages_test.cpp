@@ -58,7 +58,7 @@ TEST_F(CriticalMessages, WantALabelOfAPointThatIsFollowed) {
     const auto found = after("of = \"BP1\"", "of = \"" + label + "\"");
     ASSERT_EQ(found.size(), 1U) << label;
     EXPECT_THAT(found[0], testing::HasSubstr("critical_curve.of: got \"" + label +
-                                             "\", need LP, BP, CL, SA, KB, KS or UZ and a number"));
+                                             "\", need LP, BP, CL, SA, KB, KS, SC or UZ and a number"));
   }
 }
 
