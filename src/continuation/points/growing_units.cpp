@@ -5,79 +5,110 @@
 
 namespace springfold::continuation {
 
-GrowingUnits::GrowingUnits(ProblemView problem, const Vector& x, double lambda, const Piece& piece)
-    : problem_{problem}, measure_{problem.lambda_measure()} {
-  if (is_plain()) return;
-  moves_ = (problem.metric().array() > 0).cast<double>();
-  stiff_ = Vector::Zero(moves_.size());
-  count_by_energy(x, lambda, piece);
+namespace {
+
+/// Of the rows of motions, in units of the unknowns: the largest entry among motions.
+Vector sizes_of_motions(const Vector& units, const Matrix& A) {
+  return (units.asDiagonal() * A * units.asDiagonal()).cwiseAbs().rowwise().maxCoeff();
 }
 
+/// The least of the rows of motions: its largest entry, that by lambda among them, at any of the places.
+double least_row(const Vector& units, const Vector& moves,
+                 const std::vector<Linearisation>& about) {
+  Vector rows = Vector::Zero(units.size());
+  for (const Linearisation& at : about)
+    rows = rows.cwiseMax(sizes_of_motions(units, at.dF_dx))
+               .cwiseMax(units.cwiseProduct(at.dF_dlambda).cwiseAbs());
+  return (moves.array() > 0 && rows.array() > 0).select(rows, infinity).minCoeff();
+}
+
+}  // namespace
+
+GrowingUnits::GrowingUnits(ProblemView problem)
+    : problem_{problem},
+      measure_{problem.lambda_measure()},
+      moves_{(problem.metric().array() > 0).cast<double>()},
+      stiff_{Vector::Zero(problem.size())} {}
+
 /// Largest stiffness in the row of each motion that every piece has which one switch alone, or all of them, lead to.
-/// @returns nothing where derivatives are not defined
-std::optional<Vector> GrowingUnits::lasting_stiffness(const Vector& x, double lambda,
-                                                      const Piece& piece) const {
+/// @param least  what is less is of no matter  @returns nothing where derivatives are not defined
+std::optional<Vector> GrowingUnits::lasting_stiffness(const CurvePoint& start, const Vector& units,
+                                                      double least) const {
+  const Piece& piece = start.piece;
   std::vector<Piece> pieces{piece, Piece(piece.size(), -1), Piece(piece.size(), 1)};
   for (std::size_t j = 0; j < piece.size(); ++j) {
     pieces.push_back(piece);
     pieces.back()[j] = static_cast<Piece::value_type>(-piece[j]);
   }
-  std::optional<Vector> least;
+  std::optional<Vector> stiffness;
   for (const Piece& one : pieces) {
     Linearisation at;
-    if (!linearise_densely(problem_, x, lambda, one, at)) return std::nullopt;
-    const Matrix A = moves_.asDiagonal() * at.dF_dx * moves_.asDiagonal();
-    const Vector sizes = A.cwiseAbs().rowwise().maxCoeff();
-    least = least ? Vector(least->cwiseMin(sizes)) : sizes;
-    if (!(least->array() > stiff_beside_others).any()) break;
+    if (!linearise_densely(problem_, start.x, start.lambda, one, at)) return std::nullopt;
+    const Vector sizes = sizes_of_motions(units, at.dF_dx);
+    stiffness = stiffness ? Vector(stiffness->cwiseMin(sizes)) : sizes;
+    if (!(stiffness->array() > least).any()) break;
   }
-  return least;
+  return stiffness;
 }
 
-/// Structured problems keep their motions as they are. So does what is stiff in one piece alone: in the others it would
-/// move for orders of magnitude longer than others do.
-void GrowingUnits::count_by_energy(const Vector& x, double lambda, const Piece& piece) {
-  if (problem_.structured() || x.size() == 0) return;
-  if (const auto stiffness = lasting_stiffness(x, lambda, piece)) {
-    const Vector sizes = *stiffness / stiff_beside_others;
+/// Structured problems, and those without an energy, keep their motions as they are. So does what is stiff in one piece
+/// alone: in the others it would move for orders of magnitude longer than others do.
+void GrowingUnits::count_by_energy(const CurvePoint& start, const Vector& units,
+                                   const std::vector<Linearisation>& about) {
+  start_ = start.lambda;
+  if (problem_.structured() || !problem_.symmetric() || units.size() == 0) return;
+  if (!in_parts() && about.empty()) return;
+  const Vector of_motions = moves_.cwiseProduct(units);
+  const double least = stiff_beside_others * (in_parts() ? 1 : least_row(units, moves_, about));
+  if (!in_parts() && !(sizes_of_motions(of_motions, about.front().dF_dx).array() > least).any())
+    return;
+  if (const auto stiffness = lasting_stiffness(start, of_motions, least)) {
+    const Vector sizes = *stiffness / least;
     stiff_ = (sizes.array() > 1).select(sizes, 0);
   }
 }
 
-bool GrowingUnits::is_plain() const { return !std::isfinite(measure_.linear); }
+bool GrowingUnits::in_parts() const { return std::isfinite(measure_.linear); }
+
+bool GrowingUnits::is_plain() const { return !in_parts() && !(stiff_.array() > 0).any(); }
 
 double GrowingUnits::lambda_at(double mu) const {
   const auto [centre, linear] = measure_;
-  return centre + linear * std::sinh((mu - centre) / linear);
+  return in_parts() ? centre + linear * std::sinh((mu - centre) / linear) : mu;
 }
 
 double GrowingUnits::r_at(double mu) const {
-  return std::cosh((mu - measure_.centre) / measure_.linear);
+  return in_parts() ? std::cosh((mu - measure_.centre) / measure_.linear)
+                    : std::hypot(1, mu - start_);
 }
 
+double GrowingUnits::rate_of_lambda(double mu) const { return in_parts() ? r_at(mu) : 1; }
+
 double GrowingUnits::growth_of(double mu) const {
-  return std::tanh((mu - measure_.centre) / measure_.linear) / measure_.linear;
+  if (in_parts()) return std::tanh((mu - measure_.centre) / measure_.linear) / measure_.linear;
+  const double r = r_at(mu);
+  return (mu - start_) / r / r;
 }
 
 Vector GrowingUnits::motions_at(double mu) const { return (1 + stiff_.array() / r_at(mu)).rsqrt(); }
 
 void GrowingUnits::put(const Vector& y, double mu) const {
-  const double r = r_at(mu);
+  const double r = rate_of_lambda(mu);
   columns_ = motions_at(mu);
   rows_ = (moves_.array() > 0).select(columns_ / r, 1);
   columns_ = (moves_.array() > 0).select(columns_, r);
   x_ = columns_.cwiseProduct(y);
 }
 
-/// Of c: half of the share of stiff / r in 1 + stiff / r. Of r itself: 1.
+/// Of c: half of the share of stiff / r in 1 + stiff / r. Of forces that grow with r: 1.
 Vector GrowingUnits::column_rates(double mu) const {
   const Eigen::ArrayXd stiff = stiff_.array() / r_at(mu);
-  return (moves_.array() > 0).select(0.5 * stiff / (1 + stiff), 1);
+  return (moves_.array() > 0).select(0.5 * stiff / (1 + stiff), in_parts() ? 1 : 0);
 }
 
-/// Of c / r; rows of forces stay.
+/// Of c, or of c / r; rows of forces stay.
 Vector GrowingUnits::row_rates(double mu) const {
-  return (moves_.array() > 0).select(column_rates(mu).array() - 1, 0);
+  return (moves_.array() > 0).select(column_rates(mu).array() - (in_parts() ? 1 : 0), 0);
 }
 
 bool GrowingUnits::residual(const Vector& y, double mu, const Piece& piece, Vector& G) const {
@@ -91,7 +122,7 @@ bool GrowingUnits::residual(const Vector& y, double mu, const Piece& piece, Vect
 /// @param image  dG/dy times the rates of x at y, in parts of that of r @param dG_dmu holds dF/dlambda; at the place of
 ///               put(), with F_
 void GrowingUnits::put_rate(double mu, const Vector& image, Vector& dG_dmu) const {
-  dG_dmu = r_at(mu) * rows_.cwiseProduct(dG_dmu) +
+  dG_dmu = rate_of_lambda(mu) * rows_.cwiseProduct(dG_dmu) +
            growth_of(mu) * (image + row_rates(mu).cwiseProduct(rows_).cwiseProduct(F_));
 }
 
@@ -127,16 +158,18 @@ bool GrowingUnits::switch_gradients(const Vector& y, double mu, Matrix& dg_dy,
   put(y, mu);
   if (!problem_.switch_gradients(x_, lambda_at(mu), dg_dy, dg_dmu)) return false;
   dg_dy.array().rowwise() *= columns_.transpose().array();
-  dg_dmu = (r_at(mu) * dg_dmu + growth_of(mu) * (dg_dy * column_rates(mu).cwiseProduct(y))).eval();
+  dg_dmu =
+      (rate_of_lambda(mu) * dg_dmu + growth_of(mu) * (dg_dy * column_rates(mu).cwiseProduct(y)))
+          .eval();
   return true;
 }
 
 CurvePoint GrowingUnits::inside(const Vector& x, double lambda) const {
   const auto [centre, linear] = measure_;
   CurvePoint at;
-  at.lambda = centre + linear * std::asinh((lambda - centre) / linear);
+  at.lambda = in_parts() ? centre + linear * std::asinh((lambda - centre) / linear) : lambda;
   const Vector motions = motions_at(at.lambda);
-  at.x = (moves_.array() > 0).select(x.cwiseQuotient(motions), x / r_at(at.lambda));
+  at.x = (moves_.array() > 0).select(x.cwiseQuotient(motions), x / rate_of_lambda(at.lambda));
   return at;
 }
 
@@ -156,9 +189,9 @@ CurvePoint GrowingUnits::outside(CurvePoint point) const {
   return point;
 }
 
-// dlambda = r dmu,  dx_i = f_i (dy_i + e_i r'/r y_i dmu), f the factors of the unknowns, e their rates in parts of r's
+// dlambda = (dlambda/dmu) dmu,  dx_i = f_i (dy_i + e_i r'/r y_i dmu), f the factors of the unknowns, e their rates
 Direction GrowingUnits::inside(Direction direction, const CurvePoint& at) const {
-  const double r = r_at(at.lambda), growth = growth_of(at.lambda);
+  const double r = rate_of_lambda(at.lambda), growth = growth_of(at.lambda);
   put(at.x, at.lambda);
   direction.dlambda /= r;
   direction.dx = direction.dx.cwiseQuotient(columns_) -
@@ -172,7 +205,7 @@ Direction GrowingUnits::inside(Direction direction, const CurvePoint& at) const 
 }
 
 Direction GrowingUnits::outside(Direction direction, const CurvePoint& at) const {
-  const double r = r_at(at.lambda), growth = growth_of(at.lambda);
+  const double r = rate_of_lambda(at.lambda), growth = growth_of(at.lambda);
   put(at.x, at.lambda);
   direction.dx += growth * direction.dlambda * column_rates(at.lambda).cwiseProduct(at.x);
   direction.dx.array() *= columns_.array();

@@ -1,7 +1,8 @@
-// A problem whose lambda is measured in parts of itself. Private to the engine.
+// A problem in units that grow with lambda. Private to the engine.
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "springfold/continuation/curve.hpp"
 #include "springfold/continuation/problem.hpp"
@@ -11,25 +12,32 @@ namespace springfold::continuation {
 /// So many times stiffer than others is what counts by its energy. Less is as any mechanism has it.
 inline constexpr double stiff_beside_others = 0x1p10;
 
-/// F(x, lambda) = 0 as LambdaMeasure wants it: mu instead of lambda, and with r = dlambda/dmu
+/// F(x, lambda) = 0 with lambda measured as LambdaMeasure wants it, or as it is, and with what is stiff beside the
+/// others counted by the root of its energy. r is how far lambda has grown:
 ///
-///     x_i = r y_i    for unknowns of weight zero, forces that grow with lambda;  x_i = c_i y_i    for the others
-///     G_i = F_i      in the rows of the former,                                  G_i = c_i/r F_i  in those of the latter
+///                                         in parts of itself: r = dlambda/dmu     as it is: mu = lambda,
+///                                                                                 r = sqrt(1 + (lambda - start)^2)
+///     unknowns of weight zero, forces     x_i = r y_i,    G_i = F_i               x_i = y_i,      G_i = F_i
+///     the others, motions                 x_i = c_i y_i,  G_i = c_i/r F_i         x_i = c_i y_i,  G_i = c_i F_i
 ///
 ///     [dG/dy] = [ c/r    ] [ A  B' ] [ c    ] = [ c A c/r  c B' ]      row i belongs to unknown i; what is symmetric
-///               [      1 ] [ B  C  ] [    r ]   [ B c      C r  ]      stays so
+///               [      1 ] [ B  C  ] [    r ]   [ B c      C r  ]      stays so; as it is: with 1 for r
 ///
-/// A matrix A that grows with lambda, and forces that do, are then of moderate size all along. What is stiff beside
-/// lambda all the same, and stays as it is, is counted in the root of its energy until lambda has grown up to it: c_i =
-/// 1 / sqrt(1 + k_i / (r stiff)), k_i the largest entry of A's row at the start, as far as it is there in all pieces.
-/// Curves are the same ones; their tangents inside are rates by an arc length in which mu stands for lambda, and y for
-/// x.
+/// A matrix A that grows with lambda, and forces that do, are then of moderate size all along. What is stiff in every
+/// piece beside others, so that rounding of its row would hide theirs, is so until lambda has grown up to it:
+/// c_i = 1 / sqrt(1 + k_i / (r stiff)), k_i the largest entry of A's row at the start. Curves are the same ones; their
+/// tangents inside are rates by an arc length in which mu stands for lambda, and y for x.
 class GrowingUnits {
  public:
-  /// @param x, lambda, piece  of a point of the curve, as the caller has them
-  GrowingUnits(ProblemView problem, const Vector& x, double lambda, const Piece& piece);
+  explicit GrowingUnits(ProblemView problem);
 
-  /// lambda as it is: then nothing else here is to be called.
+  /// Is lambda measured in parts of itself?
+  bool in_parts() const;
+  /// Finds what is stiff. @param units  of the unknowns  @param about  linearisations at the start, which comes first,
+  /// and beside it; not used in parts of lambda
+  void count_by_energy(const CurvePoint& start, const Vector& units,
+                       const std::vector<Linearisation>& about);
+  /// Unknowns and lambda as they are: then nothing else here is to be called.
   bool is_plain() const;
 
   Index size() const { return problem_.size(); }
@@ -62,18 +70,20 @@ class GrowingUnits {
 
  private:
   double lambda_at(double mu) const;
-  double growth_of(double mu) const;  ///< dr/dmu, relative to r
+  double rate_of_lambda(double mu) const;  ///< dlambda/dmu
+  double growth_of(double mu) const;       ///< dr/dmu, relative to r
   void put(const Vector& y, double mu) const;
   void put_rate(double mu, const Vector& image, Vector& dG_dmu) const;
-  std::optional<Vector> lasting_stiffness(const Vector& x, double lambda, const Piece& piece) const;
-  void count_by_energy(const Vector& x, double lambda, const Piece& piece);
+  std::optional<Vector> lasting_stiffness(const CurvePoint& start, const Vector& units,
+                                          double least) const;
   /// Rates of the logarithms of the factors of unknowns and rows, in parts of that of r.
   Vector column_rates(double mu) const;
   Vector row_rates(double mu) const;
 
   ProblemView problem_;
   LambdaMeasure measure_{};
-  Vector moves_{};  ///< n: 1 for unknowns of the arc length, 0 for the others
+  double start_ = 0;  ///< lambda there
+  Vector moves_{};    ///< n: 1 for unknowns of the arc length, 0 for the others
   Vector stiff_{};  ///< n: value of r up to which an unknown counts by its energy; 0: it never does
   mutable Vector x_{}, F_{};           ///< in the caller's units
   mutable Vector rows_{}, columns_{};  ///< factors of the matrix, at the last mu

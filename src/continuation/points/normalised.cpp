@@ -32,21 +32,26 @@ constexpr std::array<double, 3> distances_beside{0, 1.0 / 128, 1.0 / 8};
 }  // namespace
 
 Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, const Piece& piece)
-    : growing_{problem, x, lambda, piece},
-      problem_{growing_.is_plain() ? problem : ProblemView(growing_)},
+    : growing_{problem},
+      problem_{problem},
+      unit_{problem.metric().unaryExpr(&unit_of)},
       start_{x},
       start_lambda_{lambda},
       start_piece_{piece} {
+  const Index n = problem.size();
+  std::vector<Linearisation> about;
+  if (!growing_.in_parts()) about = about_start();
+  growing_.count_by_energy({.x = x, .lambda = lambda, .piece = piece}, unit_, about);
   if (!growing_.is_plain()) {
+    problem_ = ProblemView(growing_);
     const CurvePoint start = growing_.inside(x, lambda);
     start_ = start.x;
     start_lambda_ = start.lambda;
+    about.clear();
   }
-  const Index n = problem.size();
-  unit_ = problem.metric().unaryExpr(&unit_of);
   force_ = problem.symmetric() ? unit_ : Vector::Ones(n);
   surface_ = Vector::Ones(problem.switch_count());
-  scale_equations(piece);
+  scale_equations(std::move(about));
   scale_switches(start_, start_lambda_);
 }
 
@@ -59,37 +64,15 @@ double Normalised::largest_in(const Linearisation& at) const {
 }
 
 /// Where the equations are looked at: at the start and beside it.
-std::vector<Linearisation> Normalised::about_start(const Piece& piece) const {
+std::vector<Linearisation> Normalised::about_start() const {
   std::vector<Linearisation> list;
   for (const double d : distances_beside) {
     Linearisation at;
-    if (unit_.size() > 0 && linearise(problem_, start_ + d * unit_, start_lambda_ + d, piece, at))
+    if (unit_.size() > 0 &&
+        linearise(problem_, start_ + d * unit_, start_lambda_ + d, start_piece_, at))
       list.push_back(std::move(at));
   }
   return list;
-}
-
-/// One factor for all equations would let what is stiff decide how well the others are met. Its unknowns and rows get
-/// smaller units: f K f is no more than `stiff_beside_others` times the largest entry of the least row.
-void Normalised::count_by_energy(const std::vector<Linearisation>& about) {
-  if (problem_.structured() || about.empty()) return;
-  const Index n = unit_.size();
-  const Vector moves = (problem_.metric().array() > 0).cast<double>();
-  Vector rows = Vector::Zero(n), stiff = Vector::Zero(n);
-  for (const Linearisation& at : about) {
-    const Matrix K = (force_.asDiagonal() * at.dF_dx * unit_.asDiagonal()).cwiseAbs();
-    const Vector rates = force_.cwiseProduct(at.dF_dlambda).cwiseAbs();
-    rows = rows.cwiseMax(K.rowwise().maxCoeff()).cwiseMax(rates);
-    stiff = stiff.cwiseMax((K * moves.asDiagonal()).rowwise().maxCoeff());
-  }
-  const double least = (moves.array() > 0 && rows.array() > 0).select(rows, infinity).minCoeff() *
-                       stiff_beside_others;
-  for (Index i = 0; i < n; ++i) {
-    if (!(moves[i] > 0 && stiff[i] > least)) continue;
-    const double factor = 1 / power_of_two_near(std::sqrt(stiff[i] / least));
-    unit_[i] *= factor;
-    force_[i] *= factor;
-  }
 }
 
 /// The same of what is left where lambda is orders of magnitude larger than at the start: of all but the stiffness that
@@ -112,11 +95,12 @@ double Normalised::largest_that_stays(const Vector& x, double lambda, const Piec
                   force_.cwiseProduct(at.dF_dlambda).lpNorm<Eigen::Infinity>());
 }
 
-void Normalised::scale_equations(const Piece& piece) {
-  double largest = growing_.is_plain() ? 0 : largest_that_stays(start_, start_lambda_, piece);
+/// @param about  what about_start() gives, or nothing yet
+void Normalised::scale_equations(std::vector<Linearisation> about) {
+  double largest =
+      growing_.in_parts() ? largest_that_stays(start_, start_lambda_, start_piece_) : 0;
   if (!(largest > 0)) {
-    const std::vector<Linearisation> about = about_start(piece);
-    if (growing_.is_plain()) count_by_energy(about);
+    if (about.empty()) about = about_start();
     for (const Linearisation& at : about) largest = std::max(largest, largest_in(at));
   }
   force_ /= power_of_two_near(largest);

@@ -17,11 +17,11 @@ namespace springfold::continuation {
 ///     x = unit * y,   G = force unit * F (symmetric problems: dG/dy stays symmetric)  or  force * F,
 ///     h_j = surface_j g_j
 ///
-/// The metric gives the units: its weights become numbers in [1, 4), but where unknowns count by their energy, which
-/// keep their weight in x. The largest entry of [dG/dy dG/dlambda] at and
+/// The metric gives the units: its weights become numbers in [1, 4). The largest entry of [dG/dy dG/dlambda] at and
 /// near the start becomes about 1, and so does the gradient of each h_j. Unknowns of weight zero keep their unit.
-/// lambda and the arc length are the caller's, but where the problem has lambda measured otherwise (LambdaMeasure): mu
-/// stands inside for lambda then, and tangents outside are rates by the arc length of y and mu.
+/// lambda and the arc length are the caller's, but where the problem has lambda measured otherwise (LambdaMeasure), or
+/// members so stiff beside others that they count by their energy: units grow with lambda then (GrowingUnits), and
+/// tangents outside are rates by the arc length inside.
 class Normalised {
  public:
   /// @param x, lambda, piece  a point of the curve
@@ -69,10 +69,9 @@ class Normalised {
   CurvePoint in_own(CurvePoint point) const;
   void scale(Matrix& dG_dy, Vector& dG_dlambda) const;
   double largest_in(const Linearisation& at) const;
-  std::vector<Linearisation> about_start(const Piece& piece) const;
+  std::vector<Linearisation> about_start() const;
   double largest_that_stays(const Vector& x, double lambda, const Piece& piece) const;
-  void count_by_energy(const std::vector<Linearisation>& about);
-  void scale_equations(const Piece& piece);
+  void scale_equations(std::vector<Linearisation> about);
   void scale_switches(const Vector& x, double lambda);
 
   GrowingUnits growing_;  ///< used where lambda is not measured as it is
