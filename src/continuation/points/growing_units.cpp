@@ -1,5 +1,6 @@
 #include "continuation/points/growing_units.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -20,6 +21,14 @@ double least_row(const Vector& units, const Vector& moves,
     rows = rows.cwiseMax(sizes_of_motions(units, at.dF_dx))
                .cwiseMax(units.cwiseProduct(at.dF_dlambda).cwiseAbs());
   return (moves.array() > 0 && rows.array() > 0).select(rows, infinity).minCoeff();
+}
+
+/// What lambda does to the equations of motions, at most, per unit.
+double force_of_lambda(const Vector& units, const std::vector<Linearisation>& about) {
+  double largest = 0;
+  for (const Linearisation& at : about)
+    largest = std::max(largest, units.cwiseProduct(at.dF_dlambda).lpNorm<Eigen::Infinity>());
+  return largest;
 }
 
 }  // namespace
@@ -79,15 +88,15 @@ double GrowingUnits::lambda_at(double mu) const {
 
 double GrowingUnits::r_at(double mu) const {
   return in_parts() ? std::cosh((mu - measure_.centre) / measure_.linear)
-                    : std::hypot(1, mu - start_);
+                    : std::hypot(1, load_ * (mu - start_));
 }
 
 double GrowingUnits::rate_of_lambda(double mu) const { return in_parts() ? r_at(mu) : 1; }
 
 double GrowingUnits::growth_of(double mu) const {
   if (in_parts()) return std::tanh((mu - measure_.centre) / measure_.linear) / measure_.linear;
-  const double r = r_at(mu);
-  return (mu - start_) / r / r;
+  const double rate = load_ / r_at(mu);
+  return (mu - start_) * rate * rate;
 }
 
 Vector GrowingUnits::motions_at(double mu) const { return (1 + stiff_.array() / r_at(mu)).rsqrt(); }

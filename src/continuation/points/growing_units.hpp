@@ -16,7 +16,7 @@ inline constexpr double stiff_beside_others = 0x1p10;
 /// others counted by the root of its energy. r is how far lambda has grown:
 ///
 ///                                         in parts of itself: r = dlambda/dmu     as it is: mu = lambda,
-///                                                                                 r = sqrt(1 + (lambda - start)^2)
+///                                                                                 r = sqrt(1 + load^2 (lambda - start)^2)
 ///     unknowns of weight zero, forces     x_i = r y_i,    G_i = F_i               x_i = y_i,      G_i = F_i
 ///     the others, motions                 x_i = c_i y_i,  G_i = c_i/r F_i         x_i = c_i y_i,  G_i = c_i F_i
 ///
