@@ -198,6 +198,13 @@ CurvePoint GrowingUnits::outside(CurvePoint point) const {
   return point;
 }
 
+Direction GrowingUnits::with_length_one(Direction direction) const {
+  const double length = norm(problem_.metric(), direction);
+  direction.dx /= length;
+  direction.dlambda /= length;
+  return direction;
+}
+
 // dlambda = (dlambda/dmu) dmu,  dx_i = f_i (dy_i + e_i r'/r y_i dmu), f the factors of the unknowns, e their rates
 Direction GrowingUnits::inside(Direction direction, const CurvePoint& at) const {
   const double r = rate_of_lambda(at.lambda), growth = growth_of(at.lambda);
@@ -205,12 +212,7 @@ Direction GrowingUnits::inside(Direction direction, const CurvePoint& at) const 
   direction.dlambda /= r;
   direction.dx = direction.dx.cwiseQuotient(columns_) -
                  growth * direction.dlambda * column_rates(at.lambda).cwiseProduct(at.x);
-  const Vector weights = problem_.metric();
-  const double length =
-      std::sqrt(direction.dx.cwiseAbs2().dot(weights) + direction.dlambda * direction.dlambda);
-  direction.dx /= length;
-  direction.dlambda /= length;
-  return direction;
+  return with_length_one(std::move(direction));
 }
 
 Direction GrowingUnits::outside(Direction direction, const CurvePoint& at) const {
@@ -219,7 +221,7 @@ Direction GrowingUnits::outside(Direction direction, const CurvePoint& at) const
   direction.dx += growth * direction.dlambda * column_rates(at.lambda).cwiseProduct(at.x);
   direction.dx.array() *= columns_.array();
   direction.dlambda *= r;
-  return direction;
+  return in_parts() ? direction : with_length_one(std::move(direction));
 }
 
 }  // namespace springfold::continuation

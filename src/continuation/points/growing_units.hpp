@@ -15,10 +15,12 @@ inline constexpr double stiff_beside_others = 0x1p10;
 /// F(x, lambda) = 0 with lambda measured as LambdaMeasure wants it, or as it is, and with what is stiff beside the
 /// others counted by the root of its energy. r is how far lambda has grown:
 ///
-///                                         in parts of itself: r = dlambda/dmu     as it is: mu = lambda,
-///                                                                                 r = sqrt(1 + load^2 (lambda - start)^2)
-///     unknowns of weight zero, forces     x_i = r y_i,    G_i = F_i               x_i = y_i,      G_i = F_i
-///     the others, motions                 x_i = c_i y_i,  G_i = c_i/r F_i         x_i = c_i y_i,  G_i = c_i F_i
+///                                         in parts of itself:     as it is: mu = lambda,
+///                                         r = dlambda/dmu         r = sqrt(1 + load^2 (lambda - start)^2)
+///     unknowns of weight zero, forces     x_i = r y_i,            x_i = y_i,
+///                                         G_i = F_i               G_i = F_i
+///     the others, motions                 x_i = c_i y_i,          x_i = c_i y_i,
+///                                         G_i = c_i/r F_i         G_i = c_i F_i
 ///
 ///     [dG/dy] = [ c/r    ] [ A  B' ] [ c    ] = [ c A c/r  c B' ]      row i belongs to unknown i; what is symmetric
 ///               [      1 ] [ B  C  ] [    r ]   [ B c      C r  ]      stays so; as it is: with 1 for r
@@ -26,7 +28,8 @@ inline constexpr double stiff_beside_others = 0x1p10;
 /// A matrix A that grows with lambda, and forces that do, are then of moderate size all along. What is stiff in every
 /// piece beside others, so that rounding of its row would hide theirs, is so until lambda has grown up to it:
 /// c_i = 1 / sqrt(1 + k_i / (r stiff)), k_i the largest entry of A's row at the start. Curves are the same ones; their
-/// tangents inside are rates by an arc length in which mu stands for lambda, and y for x.
+/// tangents inside are rates by an arc length in which mu stands for lambda, and y for x. With lambda as it is tangents
+/// outside have length 1 in the caller's metric.
 class GrowingUnits {
  public:
   explicit GrowingUnits(ProblemView problem);
@@ -72,6 +75,7 @@ class GrowingUnits {
   double lambda_at(double mu) const;
   double rate_of_lambda(double mu) const;  ///< dlambda/dmu
   double growth_of(double mu) const;       ///< dr/dmu, relative to r
+  Direction with_length_one(Direction direction) const;
   void put(const Vector& y, double mu) const;
   void put_rate(double mu, const Vector& image, Vector& dG_dmu) const;
   std::optional<Vector> lasting_stiffness(const CurvePoint& start, const Vector& units,
@@ -82,8 +86,9 @@ class GrowingUnits {
 
   ProblemView problem_;
   LambdaMeasure measure_{};
-  double start_ = 0;  ///< lambda there
-  Vector moves_{};    ///< n: 1 for unknowns of the arc length, 0 for the others
+  double start_ = 0,
+         load_ = 1;  ///< lambda there; forces on motions per lambda, beside their least row
+  Vector moves_{};   ///< n: 1 for unknowns of the arc length, 0 for the others
   Vector stiff_{};  ///< n: value of r up to which an unknown counts by its energy; 0: it never does
   mutable Vector x_{}, F_{};           ///< in the caller's units
   mutable Vector rows_{}, columns_{};  ///< factors of the matrix, at the last mu

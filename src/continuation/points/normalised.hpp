@@ -21,7 +21,7 @@ namespace springfold::continuation {
 /// near the start becomes about 1, and so does the gradient of each h_j. Unknowns of weight zero keep their unit.
 /// lambda and the arc length are the caller's, but where the problem has lambda measured otherwise (LambdaMeasure), or
 /// members so stiff beside others that they count by their energy: units grow with lambda then (GrowingUnits), and
-/// tangents outside are rates by the arc length inside.
+/// in parts of lambda tangents outside are rates by the arc length inside.
 class Normalised {
  public:
   /// @param x, lambda, piece  a point of the curve
