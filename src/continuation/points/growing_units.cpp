@@ -68,7 +68,9 @@ void GrowingUnits::count_by_energy(const CurvePoint& start, const Vector& units,
   if (problem_.structured() || !problem_.symmetric() || units.size() == 0) return;
   if (!in_parts() && about.empty()) return;
   const Vector of_motions = moves_.cwiseProduct(units);
-  const double least = stiff_beside_others * (in_parts() ? 1 : least_row(units, moves_, about));
+  const double row = in_parts() ? 1 : least_row(units, moves_, about);
+  const double least = stiff_beside_others * row;
+  if (!in_parts()) load_ = force_of_lambda(of_motions, about) / row;
   if (!in_parts() && !(sizes_of_motions(of_motions, about.front().dF_dx).array() > least).any())
     return;
   if (const auto stiffness = lasting_stiffness(start, of_motions, least)) {
@@ -199,7 +201,8 @@ CurvePoint GrowingUnits::outside(CurvePoint point) const {
 }
 
 Direction GrowingUnits::with_length_one(Direction direction) const {
-  const double length = norm(problem_.metric(), direction);
+  const double length = std::sqrt(direction.dx.cwiseAbs2().dot(problem_.metric()) +
+                                  direction.dlambda * direction.dlambda);
   direction.dx /= length;
   direction.dlambda /= length;
   return direction;
