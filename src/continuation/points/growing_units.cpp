@@ -37,7 +37,8 @@ GrowingUnits::GrowingUnits(ProblemView problem)
     : problem_{problem},
       measure_{problem.lambda_measure()},
       moves_{(problem.metric().array() > 0).cast<double>()},
-      stiff_{Vector::Zero(problem.size())} {}
+      stiff_{Vector::Zero(problem.size())},
+      centre_{Vector::Zero(problem.size())} {}
 
 /// Largest stiffness in the row of each motion that every piece has which one switch alone, or all of them, lead to.
 /// @param least  what is less is of no matter  @returns nothing where derivatives are not defined
@@ -76,6 +77,7 @@ void GrowingUnits::count_by_energy(const CurvePoint& start, const Vector& units,
   if (const auto stiffness = lasting_stiffness(start, of_motions, least)) {
     const Vector sizes = *stiffness / least;
     stiff_ = (sizes.array() > 1).select(sizes, 0);
+    centre_ = (sizes.array() > 1).select(start.x, 0);
   }
 }
 
@@ -108,7 +110,7 @@ void GrowingUnits::put(const Vector& y, double mu) const {
   columns_ = motions_at(mu);
   rows_ = (moves_.array() > 0).select(columns_ / r, 1);
   columns_ = (moves_.array() > 0).select(columns_, r);
-  x_ = columns_.cwiseProduct(y);
+  x_ = centre_ + columns_.cwiseProduct(y);
 }
 
 /// Of c: half of the share of stiff / r in 1 + stiff / r. Of forces that grow with r: 1.
@@ -180,7 +182,8 @@ CurvePoint GrowingUnits::inside(const Vector& x, double lambda) const {
   CurvePoint at;
   at.lambda = in_parts() ? centre + linear * std::asinh((lambda - centre) / linear) : lambda;
   const Vector motions = motions_at(at.lambda);
-  at.x = (moves_.array() > 0).select(x.cwiseQuotient(motions), x / rate_of_lambda(at.lambda));
+  at.x = (moves_.array() > 0)
+             .select((x - centre_).cwiseQuotient(motions), x / rate_of_lambda(at.lambda));
   return at;
 }
 

@@ -19,7 +19,7 @@ inline constexpr double stiff_beside_others = 0x1p10;
 ///                                         r = dlambda/dmu         r = sqrt(1 + load^2 (lambda - start)^2)
 ///     unknowns of weight zero, forces     x_i = r y_i,            x_i = y_i,
 ///                                         G_i = F_i               G_i = F_i
-///     the others, motions                 x_i = c_i y_i,          x_i = c_i y_i,
+///     the others, motions                 x_i = o_i + c_i y_i,    x_i = o_i + c_i y_i,
 ///                                         G_i = c_i/r F_i         G_i = c_i F_i
 ///
 ///     [dG/dy] = [ c/r    ] [ A  B' ] [ c    ] = [ c A c/r  c B' ]      row i belongs to unknown i; what is symmetric
@@ -27,7 +27,8 @@ inline constexpr double stiff_beside_others = 0x1p10;
 ///
 /// A matrix A that grows with lambda, and forces that do, are then of moderate size all along. What is stiff in every
 /// piece beside others, so that rounding of its row would hide theirs, is so until lambda has grown up to it:
-/// c_i = 1 / sqrt(1 + k_i / (r stiff)), k_i the largest entry of A's row at the start. Curves are the same ones; their
+/// c_i = 1 / sqrt(1 + k_i / (r stiff)), k_i the largest entry of A's row at the start,
+/// where x_i = o_i. Curves are the same ones; their
 /// tangents inside are rates by an arc length in which mu stands for lambda, and y for x. With lambda as it is tangents
 /// outside have length 1 in the caller's metric.
 class GrowingUnits {
@@ -90,7 +91,8 @@ class GrowingUnits {
          load_ = 1;  ///< lambda there; forces on motions per lambda, beside their least row
   Vector moves_{};   ///< n: 1 for unknowns of the arc length, 0 for the others
   Vector stiff_{};  ///< n: value of r up to which an unknown counts by its energy; 0: it never does
-  mutable Vector x_{}, F_{};           ///< in the caller's units
+  Vector centre_{};           ///< n: x at the start of what counts by its energy, 0 of the others
+  mutable Vector x_{}, F_{};  ///< in the caller's units
   mutable Vector rows_{}, columns_{};  ///< factors of the matrix, at the last mu
   mutable ScaledMatrices matrices_{};
 };
