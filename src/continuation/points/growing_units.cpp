@@ -92,7 +92,7 @@ double GrowingUnits::lambda_at(double mu) const {
 
 double GrowingUnits::r_at(double mu) const {
   return in_parts() ? std::cosh((mu - measure_.centre) / measure_.linear)
-                    : std::hypot(1, load_ * (mu - start_));
+                    : std::hypot(std::max(1.0, load_), load_ * (mu - start_));
 }
 
 double GrowingUnits::rate_of_lambda(double mu) const { return in_parts() ? r_at(mu) : 1; }
