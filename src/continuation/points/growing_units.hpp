@@ -71,6 +71,8 @@ class GrowingUnits {
   double r_at(double mu) const;
   /// c of the motions, 1 for forces.
   Vector motions_at(double mu) const;
+  /// How far away what counts by its energy is from the origin of x, in units of y; 0 for the others.
+  Vector places_at(double mu) const { return centre_.cwiseAbs().cwiseQuotient(motions_at(mu)); }
 
  private:
   double lambda_at(double mu) const;

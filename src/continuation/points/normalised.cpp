@@ -52,6 +52,7 @@ Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, cons
   force_ = problem.symmetric() ? unit_ : Vector::Ones(n);
   surface_ = Vector::Ones(problem.switch_count());
   scale_equations(std::move(about));
+  places_ = size_of_places();
   scale_switches(start_, start_lambda_);
 }
 
@@ -106,13 +107,23 @@ void Normalised::scale_equations(std::vector<Linearisation> about) {
   force_ /= power_of_two_near(largest);
 }
 
+/// Where unknowns count by their energy: what rounding makes of their places, which stay as they are, in the equations.
+double Normalised::size_of_places() const {
+  Linearisation at;
+  if (growing_.is_plain() || problem_.structured() ||
+      !linearise_densely(problem_, start_, start_lambda_, start_piece_, at))
+    return 1;
+  const Matrix K = force_.asDiagonal() * at.dF_dx;
+  return std::max(1.0, (K.cwiseAbs() * growing_.places_at(start_lambda_)).maxCoeff());
+}
+
 double Normalised::growth(const Piece& piece) const {
-  if (piece == start_piece_) return 1;
+  if (piece == start_piece_) return places_;
   for (const auto& [known, growth] : growths_)
     if (known == piece) return growth;
   Linearisation at;
   const bool is_known = unit_.size() > 0 && linearise(problem_, start_, start_lambda_, piece, at);
-  const double growth = is_known ? std::max(1.0, largest_in(at)) : 1;
+  const double growth = is_known ? std::max(places_, largest_in(at)) : places_;
   growths_.emplace_back(piece, growth);
   return growth;
 }

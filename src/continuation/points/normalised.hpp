@@ -72,6 +72,7 @@ class Normalised {
   std::vector<Linearisation> about_start() const;
   double largest_that_stays(const Vector& x, double lambda, const Piece& piece) const;
   void scale_equations(std::vector<Linearisation> about);
+  double size_of_places() const;
   void scale_switches(const Vector& x, double lambda);
 
   GrowingUnits growing_;  ///< used where lambda is not measured as it is
@@ -82,6 +83,7 @@ class Normalised {
   Vector start_{};    ///< n, in the units of problem_, with its lambda and piece
   double start_lambda_ = 0;
   Piece start_piece_{};
+  double places_ = 1;  ///< what equations are rounded to, beside 1
 
   mutable std::vector<std::pair<Piece, double>> growths_{};
   mutable Vector x_{};
