@@ -176,6 +176,8 @@ std::optional<continuation::CurvePoint> crossing_on_the_way(const CaseCurves& cu
                                                             const BasePath& path, double range) {
   constexpr double a_little = 1e-3;  // of the range: by then branches have parted beyond doubt
   const std::vector<continuation::CurvePoint>& points = path.forward.points;
+  const bool has_unknowns = !points.empty() && points.front().x.size() > 0;
+  if (!has_unknowns) return std::nullopt;
   const Vector metric = curves.at(mu)->problem->metric();
   std::size_t sharpest = 0;
   double least = 1;
