@@ -139,9 +139,17 @@ void Tracer::follow(const Task& task) {
     }
   }
   const std::size_t met_before = met_.size();
-  Curve curve = trace_in_own_units(
-      walker_.problem, begin.from.x, begin.from.lambda, begin.ray, events_, options_.trace,
-      observer_, [this](const Hit& hit) { return at_hit(hit); }, IfInterrupted::keep);
+  std::vector<double> begins;  // where it begins, told once more
+  const auto at_hit_of_trace = [&](const Hit& hit) {
+    if (is_its_begin(hit)) begins.push_back(hit.point.s);
+    return at_hit(hit);
+  };
+  Curve curve =
+      trace_in_own_units(walker_.problem, begin.from.x, begin.from.lambda, begin.ray, events_,
+                         options_.trace, observer_, at_hit_of_trace, IfInterrupted::keep);
+  std::erase_if(curve.hits, [&](const Hit& hit) {
+    return is_junction(hit) && std::ranges::find(begins, hit.point.s) != begins.end();
+  });
   // A kink with several ways out ends the trace by itself.
   if (curve.stop == StopReason::several_ways && options_.through_kinks && !curve.hits.empty() &&
       curve.hits.back().kind == HitKind::branching_kink)

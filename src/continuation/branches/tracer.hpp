@@ -43,6 +43,7 @@ class Tracer {
   void add_ordinary_start(const CurvePoint& point, const Rays& rays, int number);
   void queue_ways(int junction);
   bool belongs_to_last(const Hit& hit);
+  bool is_its_begin(const Hit& hit) const;
   bool is_fresh(int junction) const;
   Met passage_of(const Hit& hit, int junction, bool ends);
   bool take_way(int junction, int way);

@@ -73,6 +73,16 @@ bool Tracer::belongs_to_last(const Hit& hit) {
   return true;
 }
 
+/// Is it the junction at which the branch begins, seen once more where places are not told apart?
+bool Tracer::is_its_begin(const Hit& hit) const {
+  const int origin = diagram_.branches[static_cast<std::size_t>(current_)].junction;
+  if (origin < 0 || !met_.empty()) return false;
+  const Junction& junction = diagram_.junctions[static_cast<std::size_t>(origin)];
+  const double near = options_.same_place * scale_of(junction.point);
+  return length_of(walker_, between(walker_, junction.point, hit.point)) <= near &&
+         hit.point.s <= near && belongs_to(walker_, junction, hit);
+}
+
 /// Has this junction been found by the branch that is traced, no other one running along its ways, and no other one
 /// within the spheres on which ways of close modes are told?
 bool Tracer::is_fresh(int number) const {
@@ -120,7 +130,7 @@ bool Tracer::at_hit(const Hit& hit, bool ends) {
   const Branch& own = diagram_.branches[static_cast<std::size_t>(current_)];
   if (hit.kind == HitKind::touch && own.start >= 0 && hit.s_before <= 0) return true;
   if (hit.kind == HitKind::branching_kink && !options_.through_kinks) return true;
-  if (belongs_to_last(hit)) return true;
+  if (is_its_begin(hit) || belongs_to_last(hit)) return true;
   int number = junction_at(hit);
   const bool known = number >= 0;
   if (!known) number = add_junction(hit);
