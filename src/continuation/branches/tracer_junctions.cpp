@@ -80,7 +80,7 @@ bool Tracer::is_its_begin(const Hit& hit) const {
   const Junction& junction = diagram_.junctions[static_cast<std::size_t>(origin)];
   const double near = options_.same_place * scale_of(junction.point);
   return length_of(walker_, between(walker_, junction.point, hit.point)) <= near &&
-         hit.point.s <= near && belongs_to(walker_, junction, hit);
+         hit.point.s <= near && hit.kind == junction.kind;
 }
 
 /// Has this junction been found by the branch that is traced, no other one running along its ways, and no other one
