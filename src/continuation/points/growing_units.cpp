@@ -13,6 +13,13 @@ Vector sizes_of_motions(const Vector& units, const Matrix& A) {
   return (units.asDiagonal() * A * units.asDiagonal()).cwiseAbs().rowwise().maxCoeff();
 }
 
+/// By how much the entry on the diagonal exceeds the others among motions: so stiff is a motion at least, however the
+/// others move. What is stiff between two of them alone lets both go on together.
+Vector own_stiffness(const Vector& units, const Matrix& A) {
+  const Matrix sizes = (units.asDiagonal() * A * units.asDiagonal()).cwiseAbs();
+  return (2 * sizes.diagonal() - sizes.rowwise().sum()).cwiseMax(0);
+}
+
 /// The least of the rows of motions: its largest entry, that by lambda among them, at any of the places.
 double least_row(const Vector& units, const Vector& moves,
                  const std::vector<Linearisation>& about) {
@@ -40,7 +47,7 @@ GrowingUnits::GrowingUnits(ProblemView problem)
       stiff_{Vector::Zero(problem.size())},
       centre_{Vector::Zero(problem.size())} {}
 
-/// Largest stiffness in the row of each motion that every piece has which one switch alone, or all of them, lead to.
+/// The stiffness of each motion that every piece has which one switch alone, or all of them, lead to.
 /// @param least  what is less is of no matter  @returns nothing where derivatives are not defined
 std::optional<Vector> GrowingUnits::lasting_stiffness(const CurvePoint& start, const Vector& units,
                                                       double least) const {
@@ -54,7 +61,7 @@ std::optional<Vector> GrowingUnits::lasting_stiffness(const CurvePoint& start, c
   for (const Piece& one : pieces) {
     Linearisation at;
     if (!linearise_densely(problem_, start.x, start.lambda, one, at)) return std::nullopt;
-    const Vector sizes = sizes_of_motions(units, at.dF_dx);
+    const Vector sizes = own_stiffness(units, at.dF_dx);
     stiffness = stiffness ? Vector(stiffness->cwiseMin(sizes)) : sizes;
     if (!(stiffness->array() > least).any()) break;
   }
@@ -72,7 +79,7 @@ void GrowingUnits::count_by_energy(const CurvePoint& start, const Vector& units,
   const double row = in_parts() ? 1 : least_row(units, moves_, about);
   const double least = stiff_beside_others * row;
   if (!in_parts()) load_ = force_of_lambda(of_motions, about) / row;
-  if (!in_parts() && !(sizes_of_motions(of_motions, about.front().dF_dx).array() > least).any())
+  if (!in_parts() && !(own_stiffness(of_motions, about.front().dF_dx).array() > least).any())
     return;
   if (const auto stiffness = lasting_stiffness(start, of_motions, least)) {
     const Vector sizes = *stiffness / least;

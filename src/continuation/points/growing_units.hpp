@@ -27,7 +27,7 @@ inline constexpr double stiff_beside_others = 0x1p10;
 ///
 /// A matrix A that grows with lambda, and forces that do, are then of moderate size all along. What is stiff in every
 /// piece beside others, so that rounding of its row would hide theirs, is so until lambda has grown up to it:
-/// c_i = 1 / sqrt(1 + k_i / (r stiff)), k_i the largest entry of A's row at the start, where
+/// c_i = 1 / sqrt(1 + k_i / (r stiff)), k_i what A has for this motion alone at the start, where
 /// x_i = o_i, and the load what a unit of lambda does, beside the least row. Curves are the same ones; their
 /// tangents inside are rates by an arc length in which mu stands for lambda, and y for x. With lambda as it is tangents
 /// outside have length 1 in the caller's metric.
