@@ -99,5 +99,31 @@ TEST(DeadBand, ThatBeginsAtTheStartIsOneFamily) {
   expect_equilibrium(result, [](double a) { return std::min(a, 0.0); });
 }
 
+/// Two links; the band of the upper hinge is so narrow that rounding has the sign of what lambda does along it.
+TEST(DeadBands, OfNextToNothingEndWhereTheSpringActsAndNothingTurnsBack) {
+  for (const char* band : {"low = -3.9e-7, high = 7.8e-7", "low = -4e-6, high = 2e-6"}) {
+    const StudyResult result =
+        run("[[body]]\nname = \"top\"\ntask_space = \"xy\"\npose = [0, 1.34]\n[[chain]]\nname = "
+            "\"col\"\nelements = [ { joint = \"revolute\", axis = \"-z\", name = \"h0\", role = "
+            "\"preloaded\", spring = { law = \"linear\", stiffness = 0.62 } }, { rigid = [0, 0.74] "
+            "}, { joint = \"revolute\", axis = \"-z\", name = \"h1\", role = \"preloaded\", spring "
+            "= "
+            "{ law = \"gap\", stiffness = 0.2, " +
+            std::string(band) +
+            " } }, { rigid = [0, 0.6] } ]\n[[study]]\nname = \"press\"\ncontrol = "
+            "\"load\"\ndirection = [0, -1]\nuntil = { lambda = [-0.5, 2], col.h0 = [-0.6, 0.6], "
+            "col.h1 = [-0.6, 0.6] }\nbranches = { depth = 1 }\n")
+            .of("press");
+    EXPECT_TRUE(complete(result)) << band;
+    int families = 0;
+    for (const Branch& branch : result.branches)
+      for (const auto& event : branch.events) {
+        EXPECT_NE(event.kind, EventKind::corner_limit_point) << band << " " << event.label;
+        families += event.kind == EventKind::family ? 1 : 0;
+      }
+    EXPECT_EQ(families, 2) << band;
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io

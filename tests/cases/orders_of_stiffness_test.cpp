@@ -102,5 +102,48 @@ TEST(OrdersOfStiffness, LetNothingTurnBackAlongTheLoadWhileItIsStable) {
   EXPECT_THAT(branch_loads(result), testing::IsEmpty());
 }
 
+/// Two links on a soft hinge k, whose load leads past it, and a stiff one of 1.
+StudyResult arm(double k) {
+  return run(R"toml(
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = [0.7214027689288547, -1.695413070290583]
+[[chain]]
+name = "arm"
+elements = [
+  { joint = "revolute", axis = "z", name = "q0", role = "preloaded", initial = -0.769, spring = { law = "linear", stiffness = )toml" +
+             number(k) + R"toml(, free = -0.769 } },
+  { rigid = [1, 0] },
+  { joint = "revolute", axis = "z", name = "q1", role = "preloaded", initial = -0.799, spring = { law = "linear", stiffness = 1, free = -0.799 } },
+  { rigid = [1, 0] },
+]
+[[study]]
+name = "pull"
+control = "load"
+direction = [1, 0]
+until = { lambda = [-1, 1], arm.q0 = [-12, 12], arm.q1 = [-12, 12] }
+)toml")
+      .of("pull");
+}
+
+/// The soft hinge turns until the load leads through it; from there on it is as good as none, however soft it is.
+TEST(OrdersOfStiffness, LetAnArmTurnOverOneSoftHingeToTheSamePlacesHoweverSoftItIs) {
+  const StudyResult firm = arm(1e-9);
+  const std::size_t end = firm.branches.at(0).samples.size() - 1;
+  for (const double k : {1e-12, 1e-14, 1e-16}) {
+    const StudyResult soft = arm(k);
+    EXPECT_TRUE(complete(soft)) << k;
+    EXPECT_THAT(branch_loads(soft), testing::IsEmpty()) << k;
+    const std::size_t last = soft.branches.at(0).samples.size() - 1;
+    EXPECT_NEAR(value(soft, 0, "lambda"), -1, 1e-12) << k;
+    EXPECT_NEAR(value(soft, last, "lambda"), 1, 1e-12) << k;
+    for (const char* joint : {"arm.q0", "arm.q1"}) {
+      EXPECT_NEAR(value(soft, 0, joint), value(firm, 0, joint), 2e-8) << k;
+      EXPECT_NEAR(value(soft, last, joint), value(firm, end, joint), 2e-8) << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io
