@@ -15,9 +15,10 @@ namespace {
 
 /// Height and load of the limit points of a flat truss of two bars of stiffness 1, half a span of 1, rise 1/2:
 /// P(y) = 2 y (L / sqrt(1 + y^2) - 1) has dP/dy = 0 at 1 + y^2 = L^(2/3), and P = 2 y^3 there.
-const double height = std::sqrt(std::cbrt(1.25) - 1), limit_load = 2 * height * height * height;
+const double limit_height = std::sqrt(std::cbrt(1.25) - 1),
+             limit_load = 2 * limit_height * limit_height * limit_height;
 
-/// The truss under a load that it carries at the height y, with one more study.
+/// The truss under a load that it carries at the limit_height y, with one more study.
 std::string loaded_truss(double load, double y, const std::string& kind,
                          const std::string& settings) {
   std::ostringstream text;
@@ -37,7 +38,8 @@ std::string loaded_truss(double load, double y, const std::string& kind,
 
 /// The same, loaded up to `remaining` below its limit load.
 std::string truss(double remaining, const std::string& kind, const std::string& settings) {
-  return loaded_truss(limit_load - remaining, height + std::sqrt(remaining / 3), kind, settings);
+  return loaded_truss(limit_load - remaining, limit_height + std::sqrt(remaining / 3), kind,
+                      settings);
 }
 
 const std::vector<double> loads_remaining{1e-2, 1e-4, 1e-5, 3e-6, 1e-6};
@@ -63,7 +65,7 @@ TEST(BesideALimitPoint, RatesOfTheLimitLoadsAreTheirs) {
 // The unit of lambda in the arc length does not come from the slope there, which is next to none.
 TEST(BesideALimitPoint, ACurveHasNoMorePointsThanFromAfarAndBothLimitLoads) {
   for (const double distance : {0.1, 1e-2, 1e-3, 1e-4, 3e-5, 1e-5, 1e-6, 3e-7, 1e-7, 1e-8, 1e-9})
-    for (const double y : {height + distance, height - distance}) {
+    for (const double y : {limit_height + distance, limit_height - distance}) {
       const double load = 2 * y * (std::sqrt(1.25) / std::sqrt(1 + y * y) - 1);
       const auto ran = run(loaded_truss(load, y, "force_deflection", ""));
       const analysis::Branch& branch = ran.of("s").branches.at(0);
