@@ -18,7 +18,7 @@ namespace {
 const double limit_height = std::sqrt(std::cbrt(1.25) - 1),
              limit_load = 2 * limit_height * limit_height * limit_height;
 
-/// The truss under a load that it carries at the limit_height y, with one more study.
+/// The truss under a load that it carries at the height y, with one more study.
 std::string loaded_truss(double load, double y, const std::string& kind,
                          const std::string& settings) {
   std::ostringstream text;
