@@ -57,8 +57,9 @@ TEST_F(CriticalMessages, WantALabelOfAPointThatIsFollowed) {
   for (const std::string label : {"EP1", "BPx", "BP", "LP-1"}) {
     const auto found = after("of = \"BP1\"", "of = \"" + label + "\"");
     ASSERT_EQ(found.size(), 1U) << label;
-    EXPECT_THAT(found[0], testing::HasSubstr("critical_curve.of: got \"" + label +
-                                             "\", need LP, BP, CL, SA, KB, KS, SC or UZ and a number"));
+    EXPECT_THAT(found[0],
+                testing::HasSubstr("critical_curve.of: got \"" + label +
+                                   "\", need LP, BP, CL, SA, KB, KS, SC or UZ and a number"));
   }
 }
 

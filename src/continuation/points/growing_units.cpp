@@ -4,14 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "springfold/continuation/newton.hpp"
+#include "springfold/core/rounding.hpp"
+
 namespace springfold::continuation {
-
 namespace {
-
-/// Of the rows of motions, in units of the unknowns: the largest entry among motions.
-Vector sizes_of_motions(const Vector& units, const Matrix& A) {
-  return (units.asDiagonal() * A * units.asDiagonal()).cwiseAbs().rowwise().maxCoeff();
-}
 
 /// By how much the entry on the diagonal exceeds the others among motions: so stiff is a motion at least, however the
 /// others move. What is stiff between two of them alone lets both go on together.
@@ -25,7 +22,10 @@ double least_row(const Vector& units, const Vector& moves,
                  const std::vector<Linearisation>& about) {
   Vector rows = Vector::Zero(units.size());
   for (const Linearisation& at : about)
-    rows = rows.cwiseMax(sizes_of_motions(units, at.dF_dx))
+    rows = rows.cwiseMax((units.asDiagonal() * at.dF_dx * units.asDiagonal())
+                             .cwiseAbs()
+                             .rowwise()
+                             .maxCoeff())
                .cwiseMax(units.cwiseProduct(at.dF_dlambda).cwiseAbs());
   return (moves.array() > 0 && rows.array() > 0).select(rows, infinity).minCoeff();
 }
