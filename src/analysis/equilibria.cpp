@@ -16,6 +16,7 @@
 #include "springfold/analysis/equilibrium_notes.hpp"
 #include "springfold/model/rotation_vector.hpp"
 #include "start.hpp"
+#include "zero_lengths.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -138,6 +139,10 @@ Candidates candidates(const SearchContext& context, const Study& study) {
   Candidates all;
   all.search = search_equilibria(problem, study, context.quantities, context.start,
                                  context.in_range, context.observer);
+  // A spring of no length pulls nowhere.
+  std::erase_if(all.search.found, [&](const FoundEquilibrium& f) {
+    return without_direction(problem.system(0), f.z, problem.inputs(0)).has_value();
+  });
   all.full = full_ranks(context.evaluator, all.search.found);
   std::vector<CountedEquilibrium> raw, once;
   for (const FoundEquilibrium& f : all.search.found) {

@@ -23,6 +23,7 @@
 #include "start_sides.hpp"
 #include "start_trouble.hpp"
 #include "trace_study.hpp"
+#include "zero_lengths.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -47,6 +48,17 @@ void refuse_contradiction(const Evaluator& evaluator, const CurvePoint& start,
   report.message =
       "the redundant closures contradict each other under this load: a rigid mechanism "
       "would have to give way";
+}
+
+void refuse_no_direction(const Setup& setup, const statics::FirstEquilibrium& first,
+                         StartReport& report) {
+  const auto spring = without_direction(setup.system, first.z, first.inputs);
+  if (!spring) return;
+  report.found = false;
+  report.advice = "guess a state farther from there, or give the spring another end";
+  report.message = "spring " + *spring +
+                   " has the length 0 where the start was looked for: its force has no direction "
+                   "there, and whether that is an equilibrium is not known";
 }
 
 /// Every point of the path holds what the joints hold: no curve is determined.
@@ -179,6 +191,7 @@ LambdaAsked run_in_units(const Begun& begun, const InUnits& units, double larges
   CurvePoint start = start_point(problem, setup, units.first);
   count_negative(problem, start);
   refuse_contradiction(evaluator, start, result.start);
+  refuse_no_direction(setup, units.first, result.start);
   refuse_held_twice(evaluator, study, start, result.start);
   if (!result.start.found) return {};
   report_tangent(evaluator, start, units.first.z, result.start);

@@ -19,6 +19,9 @@ using Vec3 = model::Vec3<double>;
 /// of a spring that a step leads past its other end.
 constexpr double on_one_line = 1e-9;
 
+/// Lengths, of mechanisms without dimensions, that rounding makes of no length.
+constexpr double no_length = 1e-9;
+
 using statics::PointShape;
 
 /// A vector that turns round where a shape is led over an edge, and the words for that place.
@@ -126,6 +129,29 @@ SpringEdges spring_edges(const statics::System& system, const Vector& z,
     edges.angles.push_back(state.slope != 0 ? state.off_middle : 0);
   }
   return edges;
+}
+
+std::optional<std::string> without_direction(const statics::System& system, const Vector& z,
+                                             const statics::Inputs& inputs) {
+  const auto is_short = [&](std::size_t from, std::size_t to) {
+    return (position_of(system, to, z, inputs.rho) - position_of(system, from, z, inputs.rho))
+               .norm() <= no_length;
+  };
+  for (std::size_t k = 0; k < system.line_springs.size(); ++k) {
+    const statics::PointSpring& spring = system.line_springs[k];
+    if (spring.free != 0 && is_short(spring.from, spring.to))
+      return system.mechanism.line_springs[k].name;
+  }
+  for (std::size_t i = 0; i < system.shapes.size(); ++i) {
+    const PointShape& shape = system.shapes[i];
+    const statics::ShapeState state = statics::shape_state(system, i, z, inputs);
+    if (shape.shape.kind != model::ShapeKind::path || state.slope == 0 ||
+        is_smooth_at_edge(shape, state.value))
+      continue;
+    for (std::size_t k = 0; k + 1 < shape.points.size(); ++k)
+      if (is_short(shape.points[k], shape.points[k + 1])) return shape.name;
+  }
+  return std::nullopt;
 }
 
 std::optional<std::string> led_over_edge(const statics::System& system, const SpringEdges& before,

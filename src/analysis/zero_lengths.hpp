@@ -25,6 +25,11 @@ struct SpringEdges {
 SpringEdges spring_edges(const statics::System& system, const Vector& z,
                          const statics::Inputs& inputs);
 
+/// Is there a spring with a force whose length is nothing but rounding? What it does to the rest, and so whether the
+/// state is an equilibrium, is not known. @returns its name
+std::optional<std::string> without_direction(const statics::System& system, const Vector& z,
+                                             const statics::Inputs& inputs);
+
 /// Why a curve does not lead from the first of these states to the second: a spring is turned round there without being
 /// turned aside, or an angle jumps by whole turns. Nothing where it does.
 std::optional<std::string> led_over_edge(const statics::System& system, const SpringEdges& before,
