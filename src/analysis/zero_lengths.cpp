@@ -20,7 +20,7 @@ using Vec3 = model::Vec3<double>;
 constexpr double on_one_line = 1e-9;
 
 /// Lengths, of mechanisms without dimensions, that rounding makes of no length.
-constexpr double no_length = 1e-9;
+constexpr double rounded_length = 1e-9;
 
 using statics::PointShape;
 
@@ -135,7 +135,7 @@ std::optional<std::string> without_direction(const statics::System& system, cons
                                              const statics::Inputs& inputs) {
   const auto is_short = [&](std::size_t from, std::size_t to) {
     return (position_of(system, to, z, inputs.rho) - position_of(system, from, z, inputs.rho))
-               .norm() <= no_length;
+               .norm() <= rounded_length;
   };
   for (std::size_t k = 0; k < system.line_springs.size(); ++k) {
     const statics::PointSpring& spring = system.line_springs[k];
