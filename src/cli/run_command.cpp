@@ -42,6 +42,14 @@ void note(const Arguments& arguments, const Session& session, const std::string&
   if (!arguments.is_quiet) say(session, message);
 }
 
+void say_unresolved_points(const StudyResult& result, const Session& session) {
+  for (std::size_t b = 0; b < result.branches.size(); ++b)
+    for (const auto& event : result.branches[b].events)
+      if (event.kind == analysis::EventKind::unresolved)
+        say(session, name_of(result) + ": " + event.label + " of branch " + std::to_string(b + 1) +
+                         " is unresolved: " + event.detail);
+}
+
 /// Says what is missing in a result and gives its exit code.
 int judge(const Case& the_case, const StudyResult& result, const Session& session) {
   const auto planned =
@@ -58,21 +66,17 @@ int judge(const Case& the_case, const StudyResult& result, const Session& sessio
     say(session, name_of(result) + ": nothing was traced: " + problem);
     return no_start_point;
   }
+  bool is_said = !result.doubts.empty();
   for (const auto& branch : result.branches)
     for (const auto* stop : {&branch.backward, &branch.forward})
-      if (!stop->complete) say(session, name_of(result) + ": stopped early: " + stop->reason);
+      if (!stop->complete) {
+        say(session, name_of(result) + ": stopped early: " + stop->reason);
+        is_said = true;
+      }
   for (const auto& doubt : result.doubts)
     say(session, name_of(result) + ": unresolved: " + io::with_place(doubt, plan));
-  if (!analysis::complete(result)) return partial;
-  const bool is_resolved = std::all_of(
-      result.branches.begin(), result.branches.end(), [](const analysis::Branch& branch) {
-        return std::none_of(branch.events.begin(), branch.events.end(), [](const auto& event) {
-          return event.kind == analysis::EventKind::unresolved;
-        });
-      });
-  if (is_resolved) return all_done;
-  say(session, name_of(result) + ": has points that could not be resolved");
-  return partial;
+  if (!is_said) say_unresolved_points(result, session);
+  return analysis::complete(result) ? all_done : partial;
 }
 
 /// 4 before 5 before 0.
