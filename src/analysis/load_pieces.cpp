@@ -55,8 +55,8 @@ void say_jump(const LoadPiece& last, const LoadPiece& next, Branch& before, Bran
   const double from = lambda(before.samples.back()), to = lambda(behind.samples.front());
   if (std::abs(to - from) <= std::sqrt(same_load) * std::max(std::abs(from), std::abs(to))) return;
   const Side &end = last.growing, &begin = next.falling;
-  const std::string cause = begin.decides ? std::string{to_string(*begin.decides)}
-                            : end.decides ? std::string{to_string(*end.decides)}
+  const std::string cause = begin.decides ? name_of_degeneracy(*begin.decides, next.of)
+                            : end.decides ? name_of_degeneracy(*end.decides, last.of)
                                           : "another critical point comes first";
   const std::string text = "jumps from " + rounded(from) + " to " + rounded(to) + ": " + cause;
   mark_jump(before, true, text);
