@@ -19,7 +19,7 @@ using Vec3 = model::Vec3<double>;
 /// of a spring that a step leads past its other end.
 constexpr double on_one_line = 1e-9;
 
-/// Lengths, of mechanisms without dimensions, that rounding makes of no length.
+/// Lengths and forces, of mechanisms without dimensions, that rounding makes of none.
 constexpr double rounded_length = 1e-9;
 
 using statics::PointShape;
@@ -139,13 +139,14 @@ std::optional<std::string> without_direction(const statics::System& system, cons
   };
   for (std::size_t k = 0; k < system.line_springs.size(); ++k) {
     const statics::PointSpring& spring = system.line_springs[k];
-    if (spring.free != 0 && is_short(spring.from, spring.to))
+    if (std::abs(spring.free) > rounded_length && is_short(spring.from, spring.to))
       return system.mechanism.line_springs[k].name;
   }
   for (std::size_t i = 0; i < system.shapes.size(); ++i) {
     const PointShape& shape = system.shapes[i];
     const statics::ShapeState state = statics::shape_state(system, i, z, inputs);
-    if (shape.shape.kind != model::ShapeKind::path || state.slope == 0 ||
+    const bool pulls = std::abs(state.slope) > rounded_length;
+    if (shape.shape.kind != model::ShapeKind::path || !pulls ||
         is_smooth_at_edge(shape, state.value))
       continue;
     for (std::size_t k = 0; k + 1 < shape.points.size(); ++k)

@@ -377,46 +377,5 @@ TEST_F(Equilibria, WithMistakesSayWhatIsNeeded) {
                           HasSubstr("study[1].search: goes with kind = \"equilibria\"")));
 }
 
-/// A point that rests on the anchor of a spring which is not at its free length: rounding alone balances it there.
-TEST(Equilibria, AreNotToldWhereASpringHasNoLengthAndSoNoDirection) {
-  const StudyResult result = run(R"toml(
-[[node]]
-name = "p"
-at = [1.037, 0.402]
-[[spring]]
-name = "s0"
-from_at = [-0.369, 0.218]
-to = "p"
-stiffness = 3.71
-free = 1.083
-[[spring]]
-name = "s1"
-from_at = [0.462, -0.334]
-to = "p"
-stiffness = 3.11
-free = 1.827
-[[spring]]
-name = "s2"
-from_at = [-0.699, -0.973]
-to = "p"
-stiffness = 4.55
-free = 1.693
-[[spring]]
-name = "s3"
-from_at = [0.967, 0.441]
-to = "p"
-stiffness = 0.941
-free = 1.135
-[[study]]
-name = "e"
-kind = "equilibrium"
-body = "p"
-load = [-0.016, -0.294]
-)toml")
-                                 .of("e");
-  EXPECT_FALSE(result.start.found);
-  EXPECT_THAT(result.start.message, testing::HasSubstr("spring s3 has the length 0"));
-}
-
 }  // namespace
 }  // namespace springfold::io
