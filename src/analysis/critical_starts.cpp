@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "branch_rows.hpp"
 #include "limits.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/decompositions.hpp"
-#include "springfold/core/equilibration.hpp"
 #include "switching_starts.hpp"
 
 namespace springfold::analysis {
@@ -57,11 +55,10 @@ continuation::StateFunction displacement_rate_of(const CaseCurves& curves, const
 }
 
 /// Zero where under the same loads, with no body held, another number of modes is unstable: of the matrix of all
-/// motions, rows and columns as at the first place that is asked for, the determinant's sign over the norm of the
-/// inverse. Smooth, and as large as the least eigenvalue but for a factor.
+/// motions the determinant's sign over the norm of the inverse. Smooth where it vanishes, and as large as the least
+/// singular value.
 continuation::StateFunction dead_load_value_of(const CaseCurves& curves, const Piece& piece) {
-  return [&curves, piece, factors = std::make_shared<Vector>()](
-             const Vector& x, double lambda, double mu) -> std::optional<double> {
+  return [&curves, piece](const Vector& x, double lambda, double mu) -> std::optional<double> {
     const auto followed = curves.followed_at(mu);
     if (!followed) return std::nullopt;
     const PathProblem& problem = *followed->problem;
@@ -71,8 +68,7 @@ continuation::StateFunction dead_load_value_of(const CaseCurves& curves, const P
     const statics::System& system = problem.turned_to_pose(x, lambda, z);
     if (!equilibrium_matrix(system, piece, z, problem.inputs(lambda), work, r, A))
       return std::nullopt;
-    if (factors->size() == 0) *factors = equilibrate(A).rows;
-    const Lu lu(factors->asDiagonal() * A * factors->asDiagonal());
+    const Lu lu(A);
     const double size = lu.sign() == 0 ? 0 : lu.inverse().norm();
     return size > 0 && std::isfinite(size) ? lu.sign() / size : 0.0;
   };

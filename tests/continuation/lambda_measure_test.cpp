@@ -35,9 +35,7 @@ struct Soft {
 struct WithForce {
   double k = 1, e = 1e-3;
   Index size() const { return 2; }
-  bool symmetric() const {
-    return true;
-  }  // which is not asked here: what is stiff counts by its energy then
+  bool symmetric() const { return true; }  // not that of J: what is stiff counts by its energy then
   LambdaMeasure lambda_measure() const { return {0.25, 1e-3}; }
   Vector metric() const { return Vector{{1, 0}}; }
   Index switch_count() const { return 1; }

@@ -78,13 +78,16 @@ void GrowingUnits::count_by_energy(const CurvePoint& start, const Vector& units,
   const Vector of_motions = moves_.cwiseProduct(units);
   const double row = in_parts() ? 1 : least_row(units, moves_, about);
   const double least = stiff_beside_others * row;
-  if (!in_parts()) load_ = force_of_lambda(of_motions, about) / row;
-  if (!in_parts() && !(own_stiffness(of_motions, about.front().dF_dx).array() > least).any())
-    return;
-  if (const auto stiffness = lasting_stiffness(start, of_motions, least)) {
-    const Vector sizes = *stiffness / least;
-    stiff_ = (sizes.array() > 1).select(sizes, 0);
-    centre_ = (sizes.array() > 1).select(start.x, 0);
+  // With lambda as it is, where the tolerance of the stiffest row would hide the least one.
+  const double counts = in_parts() ? least : row / NewtonOptions{}.residual_tolerance;
+  if (!in_parts()) {
+    load_ = force_of_lambda(of_motions, about) / row;
+    const bool may_be = (own_stiffness(of_motions, about.front().dF_dx).array() > counts).any();
+    if (!may_be || !(load_ > 0)) return;  // what lambda does not load it never grows up to
+  }
+  if (const auto stiffness = lasting_stiffness(start, of_motions, counts)) {
+    stiff_ = (stiffness->array() > counts).select(*stiffness / least, 0);
+    centre_ = (stiffness->array() > counts).select(start.x, 0);
   }
 }
 

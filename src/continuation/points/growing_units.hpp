@@ -9,7 +9,7 @@
 
 namespace springfold::continuation {
 
-/// So many times stiffer than others is what counts by its energy. Less is as any mechanism has it.
+/// So many times stiffer than others is what counts by its energy still. Less is as any mechanism has it.
 inline constexpr double stiff_beside_others = 0x1p10;
 
 /// F(x, lambda) = 0 with lambda measured as LambdaMeasure wants it, or as it is, and with what is stiff beside the

@@ -11,7 +11,7 @@
 
 namespace springfold::continuation {
 
-/// F(x, lambda) = 0 in other unknowns and with other factors, all of them powers of two: nothing is
+/// F(x, lambda) = 0 in other unknowns and with other factors. Those of this class are powers of two: nothing is
 /// rounded, and changing the caller's units by powers of two changes no bit inside.
 ///
 ///     x = unit * y,   G = force unit * F (symmetric problems: dG/dy stays symmetric)  or  force * F,
@@ -75,7 +75,7 @@ class Normalised {
   double size_of_places() const;
   void scale_switches(const Vector& x, double lambda);
 
-  GrowingUnits growing_;  ///< used where lambda is not measured as it is
+  GrowingUnits growing_;  ///< used where units grow with lambda
   ProblemView problem_;
   Vector unit_{};     ///< n
   Vector force_{};    ///< n: factors of the equations
