@@ -199,13 +199,12 @@ PieceWays regular_ways(const Walker& walker, const CurvePoint& at, double full_r
     return equilibrated_ways(walker, at, polished ? full_rank : told_apart);
   auto d = unit(qr.last_column, walker.weights);
   if (!d) return {.why = "along the curve nothing changes here that the metric measures"};
-  const double conditioning = qr.pivots[n - 1] / size;
-  // Does lambda stand still? Beside a singular point, and among stiff members, rounding is in the kernel by the inverse
-  // of the least pivot: one inverse iteration takes it out.
-  if (std::abs(d->dlambda) <= flat_rate || conditioning <= told_apart)
+  // Does lambda stand still? Beside a singular point rounding is in the kernel by the inverse of the least pivot: one
+  // inverse iteration takes it out.
+  if (std::abs(d->dlambda) <= flat_rate)
     if (auto better = tangent_at(linear, walker.weights, *d)) d = std::move(better);
   PieceWays ways = both_ways(*d);
-  ways.conditioning = conditioning;
+  ways.conditioning = qr.pivots[n - 1] / size;
   return ways;
 }
 
