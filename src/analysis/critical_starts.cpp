@@ -54,9 +54,8 @@ continuation::StateFunction displacement_rate_of(const CaseCurves& curves, const
                  });
 }
 
-/// Zero where under the same loads, with no body held, another number of modes is unstable: of the matrix of all
-/// motions the determinant's sign over the norm of the inverse. Smooth where it vanishes, and as large as the least
-/// singular value.
+/// Zero where under the same loads, with no body held, another number of modes is unstable: the least singular value of
+/// the matrix of all motions, with a sign.
 continuation::StateFunction dead_load_value_of(const CaseCurves& curves, const Piece& piece) {
   return [&curves, piece](const Vector& x, double lambda, double mu) -> std::optional<double> {
     const auto followed = curves.followed_at(mu);
@@ -68,9 +67,7 @@ continuation::StateFunction dead_load_value_of(const CaseCurves& curves, const P
     const statics::System& system = problem.turned_to_pose(x, lambda, z);
     if (!equilibrium_matrix(system, piece, z, problem.inputs(lambda), work, r, A))
       return std::nullopt;
-    const Lu lu(A);
-    const double size = lu.sign() == 0 ? 0 : lu.inverse().norm();
-    return size > 0 && std::isfinite(size) ? lu.sign() / size : 0.0;
+    return signed_least(A);
   };
 }
 

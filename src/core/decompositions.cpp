@@ -2,6 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "springfold/core/small_lu.hpp"
 
 namespace springfold {
 
@@ -32,6 +35,23 @@ double Lu::reciprocal_condition() const { return smallest_pivot() > 0 ? factors_
 int Lu::sign() const {
   const Index negative = (factors_.matrixLU().diagonal().array() < 0).count();
   return static_cast<int>(factors_.permutationP().determinant()) * (negative % 2 == 0 ? 1 : -1);
+}
+
+double signed_least(const Matrix& A) {
+  Matrix inverse;
+  int sign = 0;
+  if (SmallLu::fits(A.rows())) {
+    const SmallLu lu(A);
+    sign = lu.sign();
+    inverse.setIdentity(A.rows(), A.cols());
+    if (sign != 0) lu.solve(inverse);
+  } else {
+    const Lu lu(A);
+    sign = lu.sign();
+    inverse = lu.inverse();
+  }
+  const double size = inverse.norm();
+  return size > 0 && std::isfinite(size) ? sign / size : 0;
 }
 
 FullPivotLu::FullPivotLu(const Matrix& A) : factors_(A) {}

@@ -6,7 +6,6 @@
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/extended_matrix.hpp"
-#include "springfold/core/small_lu.hpp"
 #include "springfold/parameters/imperfection.hpp"
 
 namespace springfold::continuation {
@@ -42,25 +41,6 @@ Degeneracy turn_of_fold(const Augmented& s, const CurvePoint& p) {
   const Vector w = svd.U.col(n - 1), a = svd.V.col(n), b = svd.V.col(n - 1);
   const double aa = form(s, p, w, a, a), ab = form(s, p, w, a, b), bb = form(s, p, w, b, b);
   return aa * bb - ab * ab > 0 ? Degeneracy::isola_centre : Degeneracy::crossing;
-}
-
-/// The determinant's sign over the norm of the inverse: smooth, as large as the smallest singular value but for a
-/// factor of the root of the number of rows at most, and zero where one more eigenvalue of dF/dx vanishes.
-double signed_least(const Matrix& M) {
-  Matrix inverse;
-  int sign = 0;
-  if (SmallLu::fits(M.rows())) {
-    const SmallLu lu(M);
-    sign = lu.sign();
-    inverse.setIdentity(M.rows(), M.cols());
-    if (sign != 0) lu.solve(inverse);
-  } else {
-    const Lu lu(M);
-    sign = lu.sign();
-    inverse = lu.inverse();
-  }
-  const double size = inverse.norm();
-  return std::isfinite(size) ? sign / size : 0;
 }
 
 /// One more eigenvalue is zero. As many ranks of [dF/dx dF/dlambda] lost as before: a limit point on

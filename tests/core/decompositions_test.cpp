@@ -49,6 +49,27 @@ TEST(Lu, KnowsTheSignOfTheDeterminantWhereTheNumberItselfWouldOverflow) {
   EXPECT_EQ(Lu(A).sign(), 1);
 }
 
+TEST(SignedLeast, IsTheLeastSingularValueButForTheRootOfTheRows) {
+  for (const Index rows : {3, 60}) {  // on the stack, and not
+    const Matrix A = seeded_matrix(rows, rows, 3);
+    const double least = jacobi_svd(A).values[rows - 1], size = std::abs(signed_least(A));
+    EXPECT_LE(size, least * (1 + 1e-9)) << rows;
+    EXPECT_GE(size, least / std::sqrt(static_cast<double>(rows))) << rows;
+  }
+}
+
+TEST(SignedLeast, ChangesItsSignWithTheDeterminantAndIsZeroForSingularMatrices) {
+  for (const Index rows : {3, 60}) {
+    Matrix A = Matrix::Identity(rows, rows);
+    EXPECT_GT(signed_least(A), 0);
+    A(1, 1) = -1;
+    EXPECT_LT(signed_least(A), 0);
+    A(1, 1) = 0;
+    EXPECT_EQ(signed_least(A), 0);
+  }
+  EXPECT_EQ(signed_least(Matrix{}), 0);
+}
+
 TEST(Lu, GivesDeterminantAndPivots) {
   Matrix A(2, 2);
   A << 0, 2, 4, 1;

@@ -43,6 +43,10 @@ class Lu {
   Eigen::PartialPivLU<Matrix> factors_{};
 };
 
+/// The determinant's sign over the norm of the inverse: the least singular value but for a factor of the root of the
+/// rows at most, smooth where it changes its sign; 0 for a matrix that is singular, has no rows, or is not finite.
+double signed_least(const Matrix& A);
+
 /// P A Q = L U, with row and column pivots: tells whether A is singular to working precision.
 class FullPivotLu {
  public:
