@@ -46,11 +46,12 @@ continuation::StateFunction column_rate_of(const CaseCurves& curves, const Curve
                  });
 }
 
-/// Of the displacement along the load.
-continuation::StateFunction displacement_rate_of(const CaseCurves& curves, const CurvePoint& at) {
+/// One that is counted with lambda, the other way round where that falls.
+continuation::StateFunction rate_by(const CaseCurves& curves, const CurvePoint& at,
+                                    RoundedRate (Evaluator::*rate)(const CurvePoint&) const) {
   return rate_of(curves, at.piece, {Vector::Zero(at.x.size()), 1},
-                 [](const CaseCurves::Followed& at_point, const CurvePoint& point) {
-                   return at_point.evaluator->displacement_rate(point).value;
+                 [rate](const CaseCurves::Followed& at_point, const CurvePoint& point) {
+                   return (*at_point.evaluator.*rate)(point).value;
                  });
 }
 
@@ -74,7 +75,7 @@ continuation::StateFunction dead_load_value_of(const CaseCurves& curves, const P
 /// What is zero at a change of stability, along its curve. Nothing where it is not known.
 continuation::StateFunction stability_value_of(const CaseCurves& curves, const SpecialPoint& point,
                                                const CurvePoint& at) {
-  if (point.hit.tag == driven_change) return displacement_rate_of(curves, at);
+  if (point.hit.tag == driven_change) return rate_by(curves, at, &Evaluator::displacement_rate);
   if (point.hit.tag == dead_load_change) return dead_load_value_of(curves, at.piece);
   return {};
 }
@@ -147,10 +148,7 @@ CriticalStart start_at(const Member& member, const SpecialPoint& point) {
 }  // namespace
 
 continuation::StateFunction force_rate_of(const CaseCurves& curves, const CurvePoint& at) {
-  return rate_of(curves, at.piece, {Vector::Zero(at.x.size()), 1},
-                 [](const CaseCurves::Followed& at_point, const CurvePoint& point) {
-                   return at_point.evaluator->force_rate(point).value;
-                 });
+  return rate_by(curves, at, &Evaluator::force_rate);
 }
 
 continuation::StateFunction marked_value_on(const CaseCurves& curves, const Member& member,
@@ -162,6 +160,24 @@ continuation::StateFunction marked_value_on(const CaseCurves& curves, const Memb
   return column_rate_of(curves, there, column_of_extremum(member.study, hit));
 }
 
+namespace {
+
+/// What is zero at a special point that no matrix tells. Nothing where it is not known.
+/// @param here  a state, with the piece on which others are taken
+continuation::StateFunction value_of(const CaseCurves& curves, const Member& member,
+                                     const SpecialPoint& point, const CurvePoint& here) {
+  switch (point.kind) {
+    case EventKind::limit_point:
+      return force_rate_of(curves, here);
+    case EventKind::stability_change:
+      return stability_value_of(curves, point, here);
+    default:
+      return marked_value_on(curves, member, point, here.piece);
+  }
+}
+
+}  // namespace
+
 std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Member& member,
                                             const SpecialPoint& point, std::string& why) {
   const Hit& hit = point.hit;
@@ -171,7 +187,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
     case EventKind::limit_point:
       if (hit.kind == continuation::HitKind::limit_point) return start;
       start.kind = CriticalKind::zero;
-      start.value = force_rate_of(curves, hit.point);
+      start.value = value_of(curves, member, point, hit.point);
       return start;
     case EventKind::branch_point:
       start.kind = CriticalKind::branch_point;
@@ -189,7 +205,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
       return std::nullopt;
     case EventKind::user_value:
       start.kind = CriticalKind::zero;
-      start.value = marked_value_on(curves, member, point, hit.point.piece);
+      start.value = value_of(curves, member, point, hit.point);
       if (start.value) return start;
       if (member.quantity(hit.name) == nullptr) break;
       why = point.label + ": several marks of " + hit.name +
@@ -197,7 +213,7 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
       return std::nullopt;
     case EventKind::stability_change:
       start.kind = CriticalKind::zero;
-      start.value = stability_value_of(curves, point, hit.point);
+      start.value = value_of(curves, member, point, hit.point);
       if (start.value) return start;
       break;
     default:
@@ -228,10 +244,7 @@ std::vector<CriticalStart> critical_starts_again(const CaseCurves& curves, const
                                                  const SpecialPoint& point, CriticalStart same) {
   if (same.kind == CriticalKind::zero) {
     const CurvePoint here{.x = same.x, .lambda = same.lambda, .piece = same.piece};
-    same.value = point.kind == EventKind::limit_point ? force_rate_of(curves, here)
-                 : point.kind == EventKind::stability_change
-                     ? stability_value_of(curves, point, here)
-                     : marked_value_on(curves, member, point, same.piece);
+    same.value = value_of(curves, member, point, here);
   }
   if (same.kind != CriticalKind::surface) return {std::move(same)};
   if (same.turns) same.turns = force_turns(curves);
