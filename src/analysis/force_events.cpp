@@ -13,6 +13,7 @@
 namespace springfold::analysis {
 namespace {
 
+using continuation::CurvePoint;
 using continuation::Hit;
 using continuation::HitKind;
 
@@ -28,6 +29,20 @@ bool is_met_at(const Hit& place, const std::vector<Hit>& hits, const Test& test)
   });
 }
 
+/// The points of a curve beside a hit, told apart from it: the next one on each side with all that follow there.
+struct Beside {
+  std::vector<CurvePoint>::const_iterator behind{};
+  std::vector<CurvePoint>::const_reverse_iterator before{};
+};
+Beside neighbours_of(const Hit& place, const continuation::Curve& curve) {
+  const auto& points = curve.points;
+  const double s = place.point.s;
+  return {std::find_if(points.begin(), points.end(),
+                       [&](const auto& point) { return point.s > s + same_hit; }),
+          std::find_if(points.rbegin(), points.rend(),
+                       [&](const auto& point) { return point.s < s - same_hit; })};
+}
+
 /// Does the force stand still on a side of a switching? It then has no extremum there: where a contact with a power
 /// above 1 that carries alone lets go, the force's rate falls to zero and stays there. A point beside it may be too
 /// near to tell, two are not.
@@ -36,38 +51,27 @@ bool stands_still_beside(const Hit& place, const continuation::Curve& curve,
   const auto is_still = [&](const auto& first, const auto& last) {
     constexpr std::ptrdiff_t looked_at = 2;
     return last - first >= looked_at &&
-           std::all_of(first, first + looked_at, [&](const continuation::CurvePoint& point) {
+           std::all_of(first, first + looked_at, [&](const CurvePoint& point) {
              return evaluator.force_rate(point).is_zero();
            });
   };
-  const auto& points = curve.points;
-  const auto behind = std::find_if(points.begin(), points.end(), [&](const auto& point) {
-    return point.s > place.point.s + same_hit;
-  });
-  const auto before = std::find_if(points.rbegin(), points.rend(), [&](const auto& point) {
-    return point.s < place.point.s - same_hit;
-  });
-  return is_still(behind, points.end()) || is_still(before, points.rend());
+  const auto [behind, before] = neighbours_of(place, curve);
+  return is_still(behind, curve.points.end()) || is_still(before, curve.points.rend());
 }
 
 /// What is stable under its load is so if the displacement along the load is driven: between two stable points with
 /// nothing else between them that cannot turn back, and a change of its rate's sign is rounding.
 bool is_between_stable_points(const Hit& place, const continuation::Curve& curve,
                               const Evaluator& evaluator) {
-  const auto& points = curve.points;
-  const auto behind = std::find_if(points.begin(), points.end(), [&](const auto& point) {
-    return point.s > place.point.s + same_hit;
-  });
-  const auto before = std::find_if(points.rbegin(), points.rend(), [&](const auto& point) {
-    return point.s < place.point.s - same_hit;
-  });
-  if (behind == points.end() || before == points.rend()) return false;
+  const auto beside = neighbours_of(place, curve);
+  if (beside.behind == curve.points.end() || beside.before == curve.points.rend()) return false;
+  const CurvePoint &before = *beside.before, &behind = *beside.behind;
   const bool is_alone = std::none_of(curve.hits.begin(), curve.hits.end(), [&](const Hit& hit) {
-    return hit.kind != HitKind::user && before->s <= hit.point.s && hit.point.s <= behind->s;
+    return hit.kind != HitKind::user && before.s <= hit.point.s && hit.point.s <= behind.s;
   });
   const QuantityDefinition index{QuantityDefinition::Kind::index, 0, "index", Unit::none, 1};
-  return is_alone && evaluator.unstable_modes(index, *before) == 0 &&
-         evaluator.unstable_modes(index, *behind) == 0;
+  return is_alone && evaluator.unstable_modes(index, before) == 0 &&
+         evaluator.unstable_modes(index, behind) == 0;
 }
 
 }  // namespace
