@@ -25,6 +25,24 @@ TEST(Metric, WeighsTheUnknownsAndCountsLambdaOnce) {
   EXPECT_EQ(metric_product(Vector{{1, 0, 0.5}}, a, b), 5 + 0.5 * 21 + 32);
 }
 
+TEST(Metric, GivesDirectionsThatItMeasuresTheLengthOne) {
+  const Vector weights{{1, 0}};
+  Direction d{Vector{{3, 7}}, 4};
+  EXPECT_TRUE(set_length_one(weights, d));
+  EXPECT_DOUBLE_EQ(metric_product(weights, d, d), 1);
+  EXPECT_DOUBLE_EQ(d.dx[1], 1.4);
+}
+
+TEST(Metric, LeavesDirectionsThatItDoesNotMeasureAsTheyAre) {
+  const Vector weights{{1, 0}};
+  Direction d{Vector{{0, 7}}, 0};
+  EXPECT_FALSE(set_length_one(weights, d));
+  EXPECT_EQ(d.dx[1], 7);
+  d = {Vector{{3, 0}}, 4};
+  EXPECT_FALSE(set_length_one(weights, d, 5));
+  EXPECT_EQ(d.dlambda, 4);
+}
+
 TEST(Bordered, SolvesTheSystemThatItDraws) {
   std::mt19937 random(101);
   std::normal_distribution<double> normal;

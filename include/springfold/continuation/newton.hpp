@@ -13,6 +13,9 @@ namespace springfold::continuation {
 /// Scalar product of the arc length: sum of weight_i a_i b_i + a_lambda b_lambda.
 double metric_product(const Vector& weights, const Direction& a, const Direction& b);
 
+/// Gives a direction the length 1. @returns false where its length is not finite or at most `least`: it stays as it is
+bool set_length_one(const Vector& weights, Direction& d, double least = 0);
+
 /// Evaluates the derivatives, structured where the problem wants it; false outside the domain or when a
 /// number is not finite.
 [[nodiscard]] bool linearise(ProblemView problem, const Vector& x, double lambda,

@@ -21,10 +21,7 @@ constexpr Index most_of_one_size = 4;
 std::optional<Direction> unit(const Vector& v, const Vector& weights) {
   const Index n = v.size() - 1;
   Direction d{v.head(n), v[n]};
-  const double length = std::sqrt(metric_product(weights, d, d));
-  if (!(length > refined_step * v.norm())) return std::nullopt;
-  d.dx /= length;
-  d.dlambda /= length;
+  if (!set_length_one(weights, d, refined_step * v.norm())) return std::nullopt;
   return d;
 }
 

@@ -213,14 +213,6 @@ CurvePoint GrowingUnits::outside(CurvePoint point) const {
   return point;
 }
 
-Direction GrowingUnits::with_length_one(Direction direction) const {
-  const double length = std::sqrt(direction.dx.cwiseAbs2().dot(problem_.metric()) +
-                                  direction.dlambda * direction.dlambda);
-  direction.dx /= length;
-  direction.dlambda /= length;
-  return direction;
-}
-
 // dlambda = (dlambda/dmu) dmu,  dx_i = f_i (dy_i + e_i r'/r y_i dmu), f the factors of the unknowns, e their rates
 Direction GrowingUnits::inside(Direction direction, const CurvePoint& at) const {
   const double r = rate_of_lambda(at.lambda), growth = growth_of(at.lambda);
@@ -228,7 +220,8 @@ Direction GrowingUnits::inside(Direction direction, const CurvePoint& at) const 
   direction.dlambda /= r;
   direction.dx = direction.dx.cwiseQuotient(columns_) -
                  growth * direction.dlambda * column_rates(at.lambda).cwiseProduct(at.x);
-  return with_length_one(std::move(direction));
+  set_length_one(problem_.metric(), direction);
+  return direction;
 }
 
 Direction GrowingUnits::outside(Direction direction, const CurvePoint& at) const {
@@ -237,7 +230,8 @@ Direction GrowingUnits::outside(Direction direction, const CurvePoint& at) const
   direction.dx += growth * direction.dlambda * column_rates(at.lambda).cwiseProduct(at.x);
   direction.dx.array() *= columns_.array();
   direction.dlambda *= r;
-  return in_parts() ? direction : with_length_one(std::move(direction));
+  if (!in_parts()) set_length_one(problem_.metric(), direction);
+  return direction;
 }
 
 }  // namespace springfold::continuation

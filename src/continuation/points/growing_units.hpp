@@ -78,7 +78,6 @@ class GrowingUnits {
   double lambda_at(double mu) const;
   double rate_of_lambda(double mu) const;  ///< dlambda/dmu
   double growth_of(double mu) const;       ///< dr/dmu, relative to r
-  Direction with_length_one(Direction direction) const;
   void put(const Vector& y, double mu) const;
   void put_rate(double mu, const Vector& image, Vector& dG_dmu) const;
   std::optional<Vector> lasting_stiffness(const CurvePoint& start, const Vector& units,

@@ -32,14 +32,18 @@ bool is_rounding(double residual, const Linearisation& at, const Vector& x, doub
   return residual <= few_roundings * sizes.lpNorm<Eigen::Infinity>();
 }
 
-double norm(const Vector& weights, const Direction& d) {
-  return std::sqrt(metric_product(weights, d, d));
-}
-
 }  // namespace
 
 double metric_product(const Vector& weights, const Direction& a, const Direction& b) {
   return (weights.array() * a.dx.array() * b.dx.array()).sum() + a.dlambda * b.dlambda;
+}
+
+bool set_length_one(const Vector& weights, Direction& d, double least) {
+  const double length = std::sqrt(metric_product(weights, d, d));
+  if (!(length > least) || !std::isfinite(length)) return false;
+  d.dx /= length;
+  d.dlambda /= length;
+  return true;
 }
 
 bool linearise(ProblemView problem, const Vector& x, double lambda, const Piece& piece,
@@ -84,10 +88,7 @@ std::optional<Direction> tangent_at(const Linearisation& at, const Vector& weigh
   const Index n = at.dF_dlambda.size();
   auto tangent = solve_bordered(at, weights, reference, Vector::Zero(n), 1.0);
   if (!tangent) return std::nullopt;
-  const double length = norm(weights, *tangent);
-  if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
-  tangent->dx /= length;
-  tangent->dlambda /= length;
+  if (!set_length_one(weights, *tangent)) return std::nullopt;
   return tangent;
 }
 
