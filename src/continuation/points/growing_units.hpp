@@ -12,6 +12,18 @@ namespace springfold::continuation {
 /// So many times stiffer than others is what counts by its energy still. Less is as any mechanism has it.
 inline constexpr double stiff_beside_others = 0x1p10;
 
+/// What the equations are like at the start and beside it, in the units of the unknowns.
+struct AboutStart {
+  Vector
+      own{};  ///< n: by how much the entries on the diagonal exceed the others, at the start; empty: not known
+  Vector rows{};         ///< n: largest entry, that by lambda among them, at any of the places
+  double by_lambda = 0;  ///< most that lambda does to a motion, per unit, at any of the places
+};
+
+/// @param at  dense, the start first  @param units  of the unknowns  @param weights  of the metric, 0 for forces
+void take_in(const Linearisation& at, const Vector& units, const Vector& weights,
+             AboutStart& about);
+
 /// F(x, lambda) = 0 with lambda measured as LambdaMeasure wants it, or as it is, and with what is stiff beside the
 /// others counted by the root of its energy. r is how far lambda has grown:
 ///
@@ -37,10 +49,10 @@ class GrowingUnits {
 
   /// Is lambda measured in parts of itself?
   bool in_parts() const;
-  /// Finds what is stiff. @param units  of the unknowns  @param about  linearisations at the start, which comes first,
-  /// and beside it; not used in parts of lambda
-  void count_by_energy(const CurvePoint& start, const Vector& units,
-                       const std::vector<Linearisation>& about);
+  /// Are there motions that may be counted so?
+  bool may_count_by_energy() const { return problem_.symmetric() && !problem_.structured(); }
+  /// Finds what is stiff. @param units  of the unknowns  @param about  may be empty in parts of lambda
+  void count_by_energy(const CurvePoint& start, const Vector& units, const AboutStart& about);
   /// Unknowns and lambda as they are: then nothing else here is to be called.
   bool is_plain() const;
 
@@ -66,25 +78,39 @@ class GrowingUnits {
   CurvePoint inside(CurvePoint point) const;
   CurvePoint outside(CurvePoint point) const;
   /// Directions at such a point.
-  Direction inside(Direction direction, const CurvePoint& at) const;
-  Direction outside(Direction direction, const CurvePoint& at) const;
-  double r_at(double mu) const;
+  Direction inside(Direction direction, const CurvePoint& point) const;
+  Direction outside(Direction direction, const CurvePoint& point) const;
+  double r_at(double mu) const { return growth_at(mu).r; }
   /// c of the motions, 1 for forces.
-  Vector motions_at(double mu) const;
+  Vector motions_at(double mu) const { return motions_at(growth_at(mu)); }
   /// How far away what counts by its energy is from the origin of x, in units of y; 0 for the others.
   Vector places_at(double mu) const { return centre_.cwiseAbs().cwiseQuotient(motions_at(mu)); }
 
  private:
-  double lambda_at(double mu) const;
-  double rate_of_lambda(double mu) const;  ///< dlambda/dmu
-  double growth_of(double mu) const;       ///< dr/dmu, relative to r
-  void put(const Vector& y, double mu) const;
-  void put_rate(double mu, const Vector& image, Vector& dG_dmu) const;
+  /// How far lambda has grown at one mu.
+  struct Growth {
+    double lambda = 0, r = 1;
+    double lambda_rate = 1;  ///< dlambda/dmu
+    double r_rate = 0;       ///< dr/dmu, relative to r
+    double forces = 0;       ///< rate of the logarithm of dlambda/dmu, in parts of that of r
+  };
+  /// What motions count by their energy.
+  struct Asked {
+    double counts = 0;  ///< what is stiffer does
+    double grown = 0;   ///< and does so until r is this part of its stiffness
+    double load = 1;    ///< as `load_`
+  };
+
+  Growth growth_at(double mu) const;
+  double mu_of(double lambda) const;
+  Vector motions_at(const Growth& at) const;
+  void put(const Vector& y, const Growth& at) const;
+  void put_rate(const Growth& at, const Vector& columns, const Vector& image, Vector& dG_dmu) const;
+  /// Rates of the logarithms of the factors of unknowns, in parts of that of r.
+  Vector column_rates(const Growth& at) const;
+  std::optional<Asked> asked_of_stiffness(const AboutStart& about) const;
   std::optional<Vector> lasting_stiffness(const CurvePoint& start, const Vector& units,
-                                          double least) const;
-  /// Rates of the logarithms of the factors of unknowns and rows, in parts of that of r.
-  Vector column_rates(double mu) const;
-  Vector row_rates(double mu) const;
+                                          Vector stiffness, double least) const;
 
   ProblemView problem_;
   LambdaMeasure measure_{};

@@ -1,6 +1,7 @@
 #include "continuation/points/normalised.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -39,19 +40,24 @@ Normalised::Normalised(ProblemView problem, const Vector& x, double lambda, cons
       start_lambda_{lambda},
       start_piece_{piece} {
   const Index n = problem.size();
-  std::vector<Linearisation> about;
-  if (!growing_.in_parts()) about = about_start();
+  force_ = problem.symmetric() ? unit_ : Vector::Ones(n);
+  surface_ = Vector::Ones(problem.switch_count());
+  AboutStart about;
+  double largest = 0;
+  if (!growing_.in_parts())
+    each_about_start([&](const Linearisation& at) {
+      if (growing_.may_count_by_energy()) take_in(at, unit_, problem.metric(), about);
+      largest = std::max(largest, largest_in(at));
+    });
   growing_.count_by_energy({.x = x, .lambda = lambda, .piece = piece}, unit_, about);
   if (!growing_.is_plain()) {
     problem_ = ProblemView(growing_);
     const CurvePoint start = growing_.inside(x, lambda);
     start_ = start.x;
     start_lambda_ = start.lambda;
-    about.clear();
+    largest = largest_about_start();
   }
-  force_ = problem.symmetric() ? unit_ : Vector::Ones(n);
-  surface_ = Vector::Ones(problem.switch_count());
-  scale_equations(std::move(about));
+  force_ /= power_of_two_near(largest);
   places_ = size_of_places();
   scale_switches(start_, start_lambda_);
 }
@@ -64,16 +70,15 @@ double Normalised::largest_in(const Linearisation& at) const {
   return std::max(rate, K.cwiseAbs().maxCoeff());
 }
 
-/// Where the equations are looked at: at the start and beside it.
-std::vector<Linearisation> Normalised::about_start() const {
-  std::vector<Linearisation> list;
+/// Looks at the equations at the start and beside it, one place after the other.
+/// @param see  takes a linearisation
+template <class See>
+void Normalised::each_about_start(const See& see) const {
+  if (unit_.size() == 0) return;
   for (const double d : distances_beside) {
     Linearisation at;
-    if (unit_.size() > 0 &&
-        linearise(problem_, start_ + d * unit_, start_lambda_ + d, start_piece_, at))
-      list.push_back(std::move(at));
+    if (linearise(problem_, start_ + d * unit_, start_lambda_ + d, start_piece_, at)) see(at);
   }
-  return list;
 }
 
 /// The same of what is left where lambda is orders of magnitude larger than at the start: of all but the stiffness that
@@ -96,15 +101,13 @@ double Normalised::largest_that_stays(const Vector& x, double lambda, const Piec
                   force_.cwiseProduct(at.dF_dlambda).lpNorm<Eigen::Infinity>());
 }
 
-/// @param about  what about_start() gives, or nothing yet
-void Normalised::scale_equations(std::vector<Linearisation> about) {
+/// The largest entry there where units grow with lambda.
+double Normalised::largest_about_start() const {
   double largest =
       growing_.in_parts() ? largest_that_stays(start_, start_lambda_, start_piece_) : 0;
-  if (!(largest > 0)) {
-    if (about.empty()) about = about_start();
-    for (const Linearisation& at : about) largest = std::max(largest, largest_in(at));
-  }
-  force_ /= power_of_two_near(largest);
+  if (!(largest > 0))
+    each_about_start([&](const Linearisation& at) { largest = std::max(largest, largest_in(at)); });
+  return largest;
 }
 
 /// Where unknowns count by their energy: what rounding makes of their places, which stay as they are, in the equations.

@@ -69,9 +69,10 @@ class Normalised {
   CurvePoint in_own(CurvePoint point) const;
   void scale(Matrix& dG_dy, Vector& dG_dlambda) const;
   double largest_in(const Linearisation& at) const;
-  std::vector<Linearisation> about_start() const;
+  template <class See>
+  void each_about_start(const See& see) const;
   double largest_that_stays(const Vector& x, double lambda, const Piece& piece) const;
-  void scale_equations(std::vector<Linearisation> about);
+  double largest_about_start() const;
   double size_of_places() const;
   void scale_switches(const Vector& x, double lambda);
 
