@@ -231,14 +231,15 @@ bool has_unresolved(const StudyResult& result) {
 /// for.
 /// @param empty  what is known before
 StudyResult run_in_growing_units(const Begun& begun, InUnits units, const StudyResult& empty) {
-  std::optional<InUnits> finest;
-  if (is_of_many_sizes(range_of_lambda(begun.study, units.setup))) finest = units;
+  const bool begins_long = is_of_many_sizes(range_of_lambda(begun.study, units.setup));
+  std::optional<InUnits> finest;  // the first ones, once others are tried
   std::optional<InUnits> before_steep;
   double largest = largest_change_of_lambda_unit;
   for (;;) {
     StudyResult result = empty;
     const LambdaAsked asked = run_in_units(begun, units, largest, result);
     if (asked.factor > 1) {
+      if (begins_long && !finest && !begun.trace_by) finest = units;
       const bool is_long = is_of_many_sizes(range_of_lambda(begun.study, units.setup));
       if (is_long && asked.is_straight) {
         measure_lambda_in_parts(units.setup);
@@ -252,11 +253,11 @@ StudyResult run_in_growing_units(const Begun& begun, InUnits units, const StudyR
       continue;
     }
     if (begun.trace_by || !has_unresolved(result)) return result;
-    std::optional<InUnits> parts = before_steep ? std::move(before_steep) : std::move(finest);
-    if (!parts) return result;
-    measure_lambda_in_parts(parts->setup);
+    if (!begins_long && !before_steep) return result;
+    InUnits& parts = before_steep ? *before_steep : finest ? *finest : units;
+    measure_lambda_in_parts(parts.setup);
     StudyResult in_parts = empty;
-    run_in_units(begun, *parts, 1, in_parts);
+    run_in_units(begun, parts, 1, in_parts);
     return complete(in_parts) ? in_parts : result;
   }
 }
