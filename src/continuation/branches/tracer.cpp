@@ -80,7 +80,7 @@ std::optional<Curve> Tracer::end_of(PieceBefore& piece) {
   });
   for (std::size_t i = 0; i < piece.hits.size(); ++i) {
     const bool stops = piece.hits[i].stops;
-    if (!stops && at_hit(piece.hits[i])) continue;
+    if (!stops && at_hit(piece.hits[i]) != AtHit::ends) continue;
     Curve curve =
         springfold::continuation::end_at(piece, i, stops ? StopReason::event : StopReason::joined);
     note_junctions(0, curve.hits);
@@ -141,8 +141,9 @@ void Tracer::follow(const Task& task) {
   const std::size_t met_before = met_.size();
   std::vector<double> begins;  // where it begins, told once more
   const auto at_hit_of_trace = [&](const Hit& hit) {
-    if (is_its_begin(hit)) begins.push_back(hit.point.s);
-    return at_hit(hit);
+    const AtHit answer = at_hit(hit);
+    if (answer == AtHit::nothing_new) begins.push_back(hit.point.s);
+    return answer != AtHit::ends;
   };
   Curve curve =
       trace_in_own_units(walker_.problem, begin.from.x, begin.from.lambda, begin.ray, events_,

@@ -22,6 +22,13 @@ struct Task {
   int kink = -1;  ///< junction of an ordinary kink at a start, of which this is way number `way`
 };
 
+/// What a branch does at a special point.
+enum class AtHit {
+  goes_on,
+  ends,         ///< another branch runs along its way on
+  nothing_new,  ///< it goes on: the point is the junction at which it begins, seen once more
+};
+
 class Tracer {
  public:
   Tracer(const Walker& walker, const std::vector<Event>& events, const DiagramOptions& options,
@@ -47,7 +54,7 @@ class Tracer {
   bool is_fresh(int junction) const;
   Met passage_of(const Hit& hit, int junction, bool ends);
   bool take_way(int junction, int way);
-  bool at_hit(const Hit& hit, bool ends = false);
+  AtHit at_hit(const Hit& hit, bool ends = false);
   bool ends_at_once(const Task& task, Curve& curve);
   std::optional<Curve> end_of(PieceBefore& piece);
   void note_junctions(std::size_t first_met, std::vector<Hit>& hits) const;

@@ -122,16 +122,17 @@ bool Tracer::take_way(int junction, int number) {
   return is_free;
 }
 
-/// The branch that is being traced meets a special point. May it go on?
-/// @param ends  it does not: a kink with several ways out
-bool Tracer::at_hit(const Hit& hit, bool ends) {
-  if (options_.outside && options_.outside(hit.point)) return false;
-  if (!is_junction(hit)) return true;
+/// The branch that is being traced meets a special point.
+/// @param ends  it does not leave it: a kink with several ways out
+AtHit Tracer::at_hit(const Hit& hit, bool ends) {
+  if (options_.outside && options_.outside(hit.point)) return AtHit::ends;
+  if (!is_junction(hit)) return AtHit::goes_on;
   // No other curve leaves an ordinary start: a touch in whose interval it lies is no junction.
   const Branch& own = diagram_.branches[static_cast<std::size_t>(current_)];
-  if (hit.kind == HitKind::touch && own.start >= 0 && hit.s_before <= 0) return true;
-  if (hit.kind == HitKind::branching_kink && !options_.through_kinks) return true;
-  if (is_its_begin(hit) || belongs_to_last(hit)) return true;
+  if (hit.kind == HitKind::touch && own.start >= 0 && hit.s_before <= 0) return AtHit::goes_on;
+  if (is_its_begin(hit)) return AtHit::nothing_new;
+  if (hit.kind == HitKind::branching_kink && !options_.through_kinks) return AtHit::goes_on;
+  if (belongs_to_last(hit)) return AtHit::goes_on;
   int number = junction_at(hit);
   const bool known = number >= 0;
   if (!known) number = add_junction(hit);
@@ -146,7 +147,7 @@ bool Tracer::at_hit(const Hit& hit, bool ends) {
   const bool go_on = met.way_on < 0 || take_way(number, met.way_on);
   met_.push_back(met);
   if (!known) queue_ways(number);
-  return go_on;
+  return go_on ? AtHit::goes_on : AtHit::ends;
 }
 
 /// Which junctions these special points are, among those met from number `first_met` on.
