@@ -77,6 +77,12 @@ std::string words_of_vector(const statics::System& system, std::size_t i) {
   return {};
 }
 
+/// Does the force turn round at an edge? A slack cable pulls nowhere, and what has no force there passes smoothly.
+/// @param least  forces up to this one are none
+bool turns_at_edge(const PointShape& shape, const statics::ShapeState& state, double least) {
+  return std::abs(state.slope) > least && !is_smooth_at_edge(shape, state.value);
+}
+
 /// What to do about an angle that is half a turn from `near`.
 std::string half_turn_words(const PointShape& shape) {
   const std::string text = "half a turn from near = " + rounded(shape.shape.near);
@@ -118,13 +124,12 @@ SpringEdges spring_edges(const statics::System& system, const Vector& z,
     if (spring.free != 0) add(spring.from, spring.to);
   for (std::size_t i = 0; i < system.shapes.size(); ++i) {
     const PointShape& shape = system.shapes[i];
-    // A slack cable pulls nowhere, and what has no force there passes smoothly: their vectors are compared with none.
     const statics::ShapeState state = statics::shape_state(system, i, z, inputs);
-    const bool counts = state.slope != 0 && !is_smooth_at_edge(shape, state.value);
+    const bool counts = turns_at_edge(shape, state, 0);
     std::vector<Vec3> p;
     for (const std::size_t point : shape.points)
       p.push_back(position_of(system, point, z, inputs.rho));
-    for (const Way& way : ways_of(shape, p))
+    for (const Way& way : ways_of(shape, p))  // compared with none where nothing turns round
       edges.vectors.push_back(counts ? way.vector : Vec3(Vec3::Zero()));
     edges.angles.push_back(state.slope != 0 ? state.off_middle : 0);
   }
@@ -145,9 +150,7 @@ std::optional<std::string> without_direction(const statics::System& system, cons
   for (std::size_t i = 0; i < system.shapes.size(); ++i) {
     const PointShape& shape = system.shapes[i];
     const statics::ShapeState state = statics::shape_state(system, i, z, inputs);
-    const bool pulls = std::abs(state.slope) > rounded_length;
-    if (shape.shape.kind != model::ShapeKind::path || !pulls ||
-        is_smooth_at_edge(shape, state.value))
+    if (shape.shape.kind != model::ShapeKind::path || !turns_at_edge(shape, state, rounded_length))
       continue;
     for (std::size_t k = 0; k + 1 < shape.points.size(); ++k)
       if (is_short(shape.points[k], shape.points[k + 1])) return shape.name;
