@@ -5,6 +5,7 @@
 #include <string>
 
 #include "case_runs.hpp"
+#include "small_structures.hpp"
 #include "springfold/analysis/design.hpp"
 
 namespace springfold::io {
@@ -14,24 +15,7 @@ using analysis::StudyResult;
 
 /// Two bars of stiffness 1, half span 1, height 3, and a spring kh that holds the apex sideways; driven in x and y.
 std::string driven_truss(const std::string& kh, const std::string& study) {
-  return "[parameters]\nkh = " + kh + R"toml(
-[[body]]
-name = "m"
-task_space = "xy"
-pose = [0, 3]
-[[spring]]
-name = "l"
-from_at = [-1, 0]
-to = "m"
-stiffness = 1
-free = "sqrt(10)"
-[[spring]]
-name = "r"
-from_at = [1, 0]
-to = "m"
-stiffness = 1
-free = "sqrt(10)"
-[[chain]]
+  return "[parameters]\nkh = " + kh + "\n" + two_bars_of_height(3) + R"toml([[chain]]
 name = "sway"
 elements = [
   { joint = "prismatic", axis = "x", name = "x", role = "preloaded", spring = { law = "linear", stiffness = "kh" } },
@@ -100,26 +84,8 @@ TEST(FollowedStability, OfAHeldPoseMeetsADesign) {
 
 /// Bars alone, driven: nothing is unknown. Straight down the force turns back at r^3 = l.
 TEST(FollowedStability, IsAskedForWhereNothingIsUnknown) {
-  const StudyResult result = run(R"toml(
-[parameters]
-psi = "-90*deg"
-[[body]]
-name = "m"
-task_space = "xy"
-pose = [0, 1]
-[[spring]]
-name = "l"
-from_at = [-1, 0]
-to = "m"
-stiffness = 1
-free = "sqrt(2)"
-[[spring]]
-name = "r"
-from_at = [1, 0]
-to = "m"
-stiffness = 1
-free = "sqrt(2)"
-[[study]]
+  const StudyResult result =
+      run("[parameters]\npsi = \"-90*deg\"\n" + two_bars_of_height(1) + R"toml([[study]]
 name = "loads"
 kind = "critical_load"
 control = "pose"
@@ -127,7 +93,7 @@ direction = ["cos(psi)", "sin(psi)"]
 until = { lambda = [-0.05, 2.4] }
 critical_load = { of = "limit_point", index = "dead_load", parameter = "psi", range = ["-120*deg", "-60*deg"], values = 5 }
 )toml")
-                                 .of("loads");
+          .of("loads");
   bool is_there = false;
   for (const analysis::Branch& branch : result.branches)
     for (const analysis::Sample& row : branch.samples)

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "case_runs.hpp"
-#include "cases/number_text.hpp"
+#include "small_structures.hpp"
 
 namespace springfold::io {
 namespace {
@@ -25,13 +25,10 @@ StudyResult led_down(double to, double step) {
   const std::string free = number(std::hypot(springs_led_to.beside, springs_led_to.lower));
   std::string text = "[[body]]\nname = \"tip\"\ntask_space = \"xy\"\npose = [0, 0]\n";
   for (const double x : {springs_led_to.beside, -springs_led_to.beside})
-    text += "[[spring]]\nname = \"" + std::string{x > 0 ? "right" : "left"} + "\"\nfrom_at = [" +
-            number(x) + ", " + number(-springs_led_to.lower) +
-            "]\nto = \"tip\"\nstiffness = " + number(springs_led_to.stiffness) +
-            "\nfree = " + free + "\n";
-  text += "[[spring]]\nname = \"low\"\nfrom_at = [0, " + number(-springs_led_to.depth) +
-          "]\nto = \"tip\"\nstiffness = " + number(springs_led_to.of_low) +
-          "\nfree = " + number(springs_led_to.depth) + "\n";
+    text += spring_from(x > 0 ? "right" : "left", {x, -springs_led_to.lower}, "tip",
+                        springs_led_to.stiffness, free);
+  text += spring_from("low", {0, -springs_led_to.depth}, "tip", springs_led_to.of_low,
+                      number(springs_led_to.depth));
   return run(text + "[[study]]\nname = \"down\"\ncontrol = \"pose\"\ndirection = [0, -1]\n" +
              "until = { deflection = [0, " + number(to) + "], force = [-30, 30] }\n" +
              "trace = { maximum_step = " + number(step) + " }\n")
@@ -77,35 +74,12 @@ TEST(LengthZero, IsNotPassedInAStepThatTheRangeCuts) {
 
 /// A point that rests on the anchor of a spring which is not at its free length: rounding alone balances it there.
 TEST(LengthZero, OfASpringWithForceMakesNoEquilibrium) {
-  const StudyResult result = run(R"toml(
-[[node]]
-name = "p"
-at = [1.037, 0.402]
-[[spring]]
-name = "s0"
-from_at = [-0.369, 0.218]
-to = "p"
-stiffness = 3.71
-free = 1.083
-[[spring]]
-name = "s1"
-from_at = [0.462, -0.334]
-to = "p"
-stiffness = 3.11
-free = 1.827
-[[spring]]
-name = "s2"
-from_at = [-0.699, -0.973]
-to = "p"
-stiffness = 4.55
-free = 1.693
-[[spring]]
-name = "s3"
-from_at = [0.967, 0.441]
-to = "p"
-stiffness = 0.941
-free = 1.135
-[[study]]
+  const StudyResult result = run("[[node]]\nname = \"p\"\nat = [1.037, 0.402]\n" +
+                                 spring_from("s0", {-0.369, 0.218}, "p", 3.71, "1.083") +
+                                 spring_from("s1", {0.462, -0.334}, "p", 3.11, "1.827") +
+                                 spring_from("s2", {-0.699, -0.973}, "p", 4.55, "1.693") +
+                                 spring_from("s3", {0.967, 0.441}, "p", 0.941, "1.135") +
+                                 R"toml([[study]]
 name = "e"
 kind = "equilibrium"
 body = "p"

@@ -72,6 +72,25 @@ to = "t"
 law = { law = "one_sided", stiffness = 0.4, from = "sqrt(0.64 + 0.49)" }
 )toml";
 
+struct Foot {
+  double x = 0, y = 0;
+};
+
+/// A straight spring from a foot on the base to a body or node. @param free  its free length, a number or formula
+inline std::string spring_from(const std::string& name, const Foot& foot, const std::string& to,
+                               double stiffness, const std::string& free) {
+  return "[[spring]]\nname = \"" + name + "\"\nfrom_at = [" + number(foot.x) + ", " +
+         number(foot.y) + "]\nto = \"" + to + "\"\nstiffness = " + number(stiffness) +
+         "\nfree = \"" + free + "\"\n";
+}
+
+/// A body m at the top of two bars of stiffness 1 and half span 1.
+inline std::string two_bars_of_height(int height) {
+  const std::string free = "sqrt(" + std::to_string(1 + height * height) + ")";
+  return "[[body]]\nname = \"m\"\ntask_space = \"xy\"\npose = [0, " + std::to_string(height) +
+         "]\n" + spring_from("l", {-1, 0}, "m", 1, free) + spring_from("r", {1, 0}, "m", 1, free);
+}
+
 /// Two bodies P and Q at the ends of crank and rocker, and the coupler between them; joints stand at these angles.
 struct FourBar {
   double crank = 0.3, base = 1, rocker = 0.8, coupler = 1;
