@@ -52,11 +52,6 @@ ContinuedLaws::ContinuedLaws(const CaseCurves& curves) : curves_{curves} {
 
 ContinuedLaws::~ContinuedLaws() { curves_.follow_in({}); }
 
-const model::CompiledSpring& ContinuedLaws::spring_of(const statics::System& system,
-                                                      const Law& law) {
-  return law.of_shape ? system.shapes[law.spring].law : system.springs[law.spring].law;
-}
-
 std::vector<double> ContinuedLaws::bends_of(const statics::System& system, const Law& law) {
   const model::CompiledSpring& spring = spring_of(system, law);
   if (law.curve >= spring.curves.size()) return {};
@@ -65,11 +60,9 @@ std::vector<double> ContinuedLaws::bends_of(const statics::System& system, const
 
 void ContinuedLaws::hold(statics::System& system) const {
   for (const Law& law : laws_) {
-    if (law.curve >= spring_of(system, law).curves.size() ||
-        law.part > bends_of(system, law).size())
-      continue;
-    auto& spring = law.of_shape ? system.shapes[law.spring].law : system.springs[law.spring].law;
-    model::SpringCurve& curve = spring.curves[law.curve];
+    auto& curves = spring_of(system, law).curves;
+    if (law.curve >= curves.size() || law.part > bends_of(system, law).size()) continue;
+    model::SpringCurve& curve = curves[law.curve];
     curve = model::part_of(curve, law.part);
   }
 }

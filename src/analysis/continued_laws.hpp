@@ -46,7 +46,10 @@ class ContinuedLaws {
     std::unique_ptr<PathProblem> problem{};
     std::unique_ptr<Evaluator> evaluator{};  ///< made when it is asked for
   };
-  static const model::CompiledSpring& spring_of(const statics::System& system, const Law& law);
+  template <class System>
+  static auto& spring_of(System& system, const Law& law) {
+    return law.of_shape ? system.shapes[law.spring].law : system.springs[law.spring].law;
+  }
   static std::vector<double> bends_of(const statics::System& system, const Law& law);
   void hold(statics::System& system) const;
   Held* at(double mu) const;
