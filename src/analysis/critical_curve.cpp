@@ -104,6 +104,16 @@ void end_at_last_reversal(CriticalCurve& curve) {
   std::erase_if(curve.points, [&](const CriticalPoint& p) { return p.s > s; });
 }
 
+/// What is followed beyond thresholds.
+enum class FollowedKind { limit_points, limit_points_of_force, marked_values };
+
+FollowedKind followed_kind(const SpecialPoint& point, const continuation::CriticalStart& start) {
+  if (point.kind == EventKind::user_value) return FollowedKind::marked_values;
+  const bool is_zero = start.kind == continuation::CriticalKind::zero;
+  return point.kind == EventKind::limit_point && is_zero ? FollowedKind::limit_points_of_force
+                                                         : FollowedKind::limit_points;
+}
+
 /// Limit points go on beyond another spring's threshold: as corners at it, as long as lambda turns back there, and from
 /// where it no longer does as limit points of the piece behind. Marked values go on as the same on the piece behind.
 class Beyond {
@@ -114,12 +124,10 @@ class Beyond {
       : curves_{curves},
         study_{base_study(study)},
         observer_{observer},
-        is_marked_{origin.point.kind == EventKind::user_value},
+        kind_{followed_kind(origin.point, pieces.front().start)},
         value_on_{[&](const Piece& piece) {
           return marked_value_on(curves, *origin.member, origin.point, piece);
         }},
-        of_force_{origin.point.kind == EventKind::limit_point &&
-                  pieces.front().start.kind == continuation::CriticalKind::zero},
         result_{result},
         pieces_{pieces} {}
 
@@ -176,9 +184,9 @@ class Beyond {
     auto& behind = next.behind[static_cast<std::size_t>(next.switching)];
     behind = static_cast<std::int8_t>(-behind);
     const continuation::CriticalStart same = of_piece(next, next.behind);
-    if (is_marked_) return {same};
+    if (kind_ == FollowedKind::marked_values) return {same};
     next.value = {};
-    if (of_force_) next.turns = force_turns(curves_);
+    if (kind_ == FollowedKind::limit_points_of_force) next.turns = force_turns(curves_);
     return {next, same};
   }
 
@@ -186,10 +194,10 @@ class Beyond {
   continuation::CriticalStart of_piece(continuation::CriticalStart start, Piece piece) const {
     start.piece = std::move(piece);
     start.turns = {};
-    start.kind = is_marked_ || of_force_ ? continuation::CriticalKind::zero
-                                         : continuation::CriticalKind::limit_point;
-    if (is_marked_) start.value = value_on_(start.piece);
-    if (of_force_)
+    start.kind = kind_ == FollowedKind::limit_points ? continuation::CriticalKind::limit_point
+                                                     : continuation::CriticalKind::zero;
+    if (kind_ == FollowedKind::marked_values) start.value = value_on_(start.piece);
+    if (kind_ == FollowedKind::limit_points_of_force)
       start.value = force_rate_of(
           curves_, {.x = start.x, .lambda = start.lambda, .tangent = {}, .piece = start.piece});
     return start;
@@ -232,7 +240,7 @@ class Beyond {
     const continuation::FurtherPoints further{.spacing = study_.trace.spacing,
                                               .most = most_rows(curves_)};
     FollowedCurve piece{.start = next, .of = last.of};
-    if (next.kind != continuation::CriticalKind::surface && !is_marked_)
+    if (next.kind != continuation::CriticalKind::surface && kind_ != FollowedKind::marked_values)
       piece.of = EventKind::limit_point;
     CriticalCurve& curve = piece.growing;
     curve = follow_over_kinks(curves_, next, growing, events, critical_options(study_), observe,
@@ -254,9 +262,9 @@ class Beyond {
     piece.falling.points.assign(
         curve.points.begin(), curve.points.empty() ? curve.points.end() : curve.points.begin() + 1);
     piece.falling.stop = continuation::StopReason::event;
-    piece.falling.stop_detail =
-        "goes on from: " +
-        (is_marked_ ? std::string{"a spring switches here"} : last.growing.stop_detail);
+    piece.falling.stop_detail = "goes on from: " + (kind_ == FollowedKind::marked_values
+                                                        ? std::string{"a spring switches here"}
+                                                        : last.growing.stop_detail);
     for (std::string& doubt : doubts_of(curves_, study_, piece))
       result_.doubts.push_back(std::move(doubt));
     result_.branches.push_back(rows_of(curves_, piece));
@@ -267,9 +275,8 @@ class Beyond {
   const CaseCurves& curves_;
   Study study_;
   const Observer& observer_;
-  const bool is_marked_;  ///< value_on_: what is zero there
-  const std::function<continuation::StateFunction(const Piece&)> value_on_;
-  const bool of_force_;  ///< limit points of the force, not of lambda
+  const FollowedKind kind_;
+  const std::function<continuation::StateFunction(const Piece&)> value_on_;  ///< of marked values
   StudyResult& result_;
   std::vector<FollowedCurve>& pieces_;
 };
