@@ -175,9 +175,11 @@ class Design {
         [&](std::size_t i) { return i < found.ways.size() && found.ways[i] == Way::climbing; });
     const bool is_birth = climbs && !found.jumps;
     if (is_birth) verify_birth(found);
-    doubt_unstable_start(found, is_birth);
+    const Vector values = search_.values(found.changes);
+    const DesignPath path(search_.requirements().designs(), values);
+    doubt_unstable_start(found, is_birth, path);
     doubt_broken_rule(found);
-    doubt_jump_of_start(found);
+    doubt_jump_of_start(values, path);
     const bool rows_fit = check_rows(found);
     if (!rows_fit) report_.verified = false;
     if (!report_.verified)
@@ -206,13 +208,18 @@ class Design {
 
   /// A path that begins unstable has no first critical load, and is reached by no load from its start: what is wanted
   /// of it is met in words only. Where limit points merge at the start itself its stability on the limit is rounding.
-  void doubt_unstable_start(const FoundDesign& found, bool is_birth) {
+  /// @param path  of the answer
+  void doubt_unstable_start(const FoundDesign& found, bool is_birth, const DesignPath& path) {
     if (!search_.requirements().needs_path()) return;
-    const Vector inside =
-        is_birth ? search_.inwards(found, nearest_beside) : Vector(Vector::Zero(count()));
-    const DesignPath path(search_.requirements().designs(), search_.values(found.changes + inside));
+    const auto modes_of = [&](const DesignPath& of) {
+      return of.has_start() ? unstable_at_start(of.base(), study_.critical)
+                            : std::optional<Index>{};
+    };
+    const auto inside = [&] {
+      return search_.values(found.changes + search_.inwards(found, nearest_beside));
+    };
     const auto modes =
-        path.has_start() ? unstable_at_start(path.base(), study_.critical) : std::optional<Index>{};
+        is_birth ? modes_of({search_.requirements().designs(), inside()}) : modes_of(path);
     if (modes && *modes > 0)
       result_.doubts.push_back(
           "the start of this design is unstable itself: stability is lost before the path begins");
@@ -233,9 +240,7 @@ class Design {
   }
 
   /// The case with the values of the design may begin in another state, far away, that asks for nothing.
-  void doubt_jump_of_start(const FoundDesign& found) {
-    const Vector values = search_.values(found.changes);
-    const DesignPath path(search_.requirements().designs(), values);
+  void doubt_jump_of_start(const Vector& values, const DesignPath& path) {
     if (!path.has_start()) return;
     if (const auto part = jump_of_start(search_.requirements().designs(), values, path.base()))
       result_.doubts.push_back(
