@@ -87,7 +87,7 @@ bool is_surely_not_zero(const Walker& walker, const CurvePoint& at, const Equili
 
 /// Stiff members beside soft ones, and multipliers beside angles, make nothing singular by that alone.
 PieceWays equilibrated_ways(const Walker& walker, const CurvePoint& at, double full_rank) {
-  const PieceWays none{.singular = true};
+  PieceWays none{.singular = true};
   const auto own = equilibrated_jacobian(walker, at);
   if (!own) return none;
   const PivotedQr qr = pivoted_qr(own->J.transpose());
