@@ -40,7 +40,7 @@ struct CoupledModes {
     dF_dlambda = mirrored(3) * b;
     return true;
   }
-  Diagram diagram() const {
+  Diagram diagram(double from = 0) const {
     const Event high{.name = "high",
                      .value = [](const CurvePoint& p) { return p.lambda - 1.5; },
                      .action = EventAction::stop};
@@ -49,7 +49,8 @@ struct CoupledModes {
                     .action = EventAction::stop};
     DiagramOptions options;
     options.maximum_depth = 2;
-    return trace_diagram(*this, {{.x = Vector::Zero(3), .lambda = 0}}, {high, low}, options);
+    const Vector straight = mirrored(3) * (std::sin(from) * Vector::Unit(3, 2));
+    return trace_diagram(*this, {{.x = straight, .lambda = from}}, {high, low}, options);
   }
   /// All states at lambda = 1.5.
   std::vector<Vector> states() const {
@@ -100,6 +101,25 @@ TEST(DiagramsOfCloseModes, MissNothingWithoutAWord) {
     const CoupledModes modes{.apart = apart};
     const Diagram diagram = modes.diagram();
     if (!is_complete(diagram)) continue;
+    EXPECT_EQ(arrivals(modes, diagram), std::vector<int>(9, 1)) << apart;
+  }
+}
+
+TEST(DiagramsOfCloseModes, BegunAtEitherMissNothingWithoutAWord) {
+  for (double apart = 1e-2; apart > 1e-12; apart *= 0.6)
+    for (const Index first : {0, 1}) {
+      const CoupledModes modes{.apart = apart};
+      const Diagram diagram = modes.diagram(modes.loads()[first]);
+      if (!is_complete(diagram)) continue;
+      EXPECT_EQ(arrivals(modes, diagram), std::vector<int>(9, 1)) << apart << " from " << first;
+    }
+}
+
+TEST(DiagramsOfCloseModes, BegunAtOneHaveEveryBranchOnce) {
+  for (const double apart : {1e-3, 1e-6, 3e-7, 1e-7, 1e-9}) {
+    const CoupledModes modes{.apart = apart};
+    const Diagram diagram = modes.diagram(modes.loads()[0]);
+    EXPECT_TRUE(is_complete(diagram)) << apart;
     EXPECT_EQ(arrivals(modes, diagram), std::vector<int>(9, 1)) << apart;
   }
 }

@@ -1,6 +1,7 @@
 #include "continuation/branches/close_modes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "continuation/branches/junction_ways.hpp"
@@ -42,6 +43,36 @@ std::vector<Way> ways_of(const Walker& walker, const Junction& junction, const E
   return are_all && are_told_apart(walker, ways) ? ways : std::vector<Way>{};
 }
 
+/// Is it a simple branch point, beside no surface, whose ways are looked for?
+bool may_take_in(const Walker& walker, const DiagramOptions& options, const Junction& junction) {
+  const CurvePoint& point = junction.point;
+  return junction.kind == HitKind::branch_point && junction.multiplicity == 1 &&
+         active_switches(walker, point.x, point.lambda).empty() &&
+         (!options.left_out || options.left_out(point).empty());
+}
+
+/// @param near  branches on which both modes take part may begin so near to the junction that no trace tells them
+TakenIn take_in_second_mode(const Walker& walker, Junction& junction, bool near) {
+  const CurvePoint& point = junction.point;
+  // On the spheres stiffness is of the size of their square: residuals must be far below it.
+  constexpr double square = told_apart * told_apart;
+  if (residual_level * scale_of(point) > tiny_share * square) return TakenIn::untold;
+  const Exits exits =
+      exits_of_close_modes(walker, point, [&](const CurvePoint& start, const Direction& tangent) {
+        return before_next_surface(walker, point, {}, start, tangent);
+      });
+  const TakenIn otherwise = exits.of_quadratic || near ? TakenIn::untold : TakenIn::no;
+  if (!exits.complete) return otherwise;
+  std::vector<Way> ways = ways_of(walker, junction, exits);
+  if (ways.empty()) return otherwise;
+  junction.ways = std::move(ways);
+  junction.multiplicity = 2;
+  junction.reach = blurred;
+  junction.complete = true;
+  junction.why.clear();
+  return TakenIn::yes;
+}
+
 }  // namespace
 
 bool belongs_to(const Walker& walker, const Junction& junction, const Hit& hit) {
@@ -52,32 +83,23 @@ bool belongs_to(const Walker& walker, const Junction& junction, const Hit& hit) 
 
 TakenIn take_in(const Walker& walker, const DiagramOptions& options, const Hit& hit,
                 Junction& junction) {
-  const CurvePoint& point = junction.point;
-  const bool are_simple = junction.kind == HitKind::branch_point && junction.multiplicity == 1 &&
-                          hit.kind == HitKind::branch_point && hit.multiplicity == 1;
-  const double apart = length_of(walker, between(walker, point, hit.point));
-  if (!are_simple || apart > together || !active_switches(walker, point.x, point.lambda).empty() ||
-      (options.left_out && !options.left_out(point).empty()))
-    return TakenIn::no;
-  // On the spheres stiffness is of the size of their square: residuals must be far below it.
-  constexpr double square = told_apart * told_apart;
-  if (residual_level * scale_of(point) > tiny_share * square) return TakenIn::untold;
-  const Exits exits =
-      exits_of_close_modes(walker, point, [&](const CurvePoint& start, const Direction& tangent) {
-        return before_next_surface(walker, point, {}, start, tangent);
-      });
+  const bool is_simple = hit.kind == HitKind::branch_point && hit.multiplicity == 1;
+  const double apart = length_of(walker, between(walker, junction.point, hit.point));
+  if (!is_simple || apart > together || !may_take_in(walker, options, junction)) return TakenIn::no;
   // Branches on which both take part begin on the others, at about the root of the distance where cubic terms tell.
-  const bool may_be_near = exits.of_quadratic || apart <= blurred * blurred;
-  const TakenIn otherwise = may_be_near ? TakenIn::untold : TakenIn::no;
-  if (!exits.complete) return otherwise;
-  std::vector<Way> ways = ways_of(walker, junction, exits);
-  if (ways.empty()) return otherwise;
-  junction.ways = std::move(ways);
-  junction.multiplicity = 2;
-  junction.reach = blurred;
-  junction.complete = true;
-  junction.why.clear();
-  return TakenIn::yes;
+  return take_in_second_mode(walker, junction, apart <= blurred * blurred);
+}
+
+TakenIn take_in_beside_start(const Walker& walker, const DiagramOptions& options,
+                             Junction& junction) {
+  if (!may_take_in(walker, options, junction) || junction.ways.empty()) return TakenIn::no;
+  const auto steepest =
+      std::max_element(junction.ways.begin(), junction.ways.end(), [](const Way& a, const Way& b) {
+        return std::abs(a.point.tangent.dlambda) < std::abs(b.point.tangent.dlambda);
+      });
+  junction.point.tangent = steepest->point.tangent;
+  if (modes_within(walker, junction.point, together) < 2) return TakenIn::no;
+  return take_in_second_mode(walker, junction, true);
 }
 
 }  // namespace springfold::continuation

@@ -15,6 +15,11 @@ enum class TakenIn { yes, no, untold };
 TakenIn take_in(const Walker& walker, const DiagramOptions& options, const Hit& hit,
                 Junction& junction);
 
+/// The same of a branch point at which a diagram begins, before anything is traced: does another mode vanish within
+/// `together` of it along its way on which lambda is steepest?
+TakenIn take_in_beside_start(const Walker& walker, const DiagramOptions& options,
+                             Junction& junction);
+
 /// Does this special point belong to a junction that has taken in another one?
 bool belongs_to(const Walker& walker, const Junction& junction, const Hit& hit);
 

@@ -59,6 +59,7 @@ void Tracer::add_start(const DiagramStart& start, int number) {
   if (junction_at(hit) >= 0) return;
   const int junction = add_junction(hit);
   at(junction).start = number;
+  look_beside_start(junction);
   queue_ways(junction);
 }
 

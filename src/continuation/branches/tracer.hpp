@@ -49,6 +49,8 @@ class Tracer {
   int add_junction(const Hit& hit);
   void add_ordinary_start(const CurvePoint& point, const Rays& rays, int number);
   void queue_ways(int junction);
+  void note_untold(int number);
+  void look_beside_start(int number);
   bool belongs_to_last(const Hit& hit);
   bool is_its_begin(const Hit& hit) const;
   bool is_fresh(int junction) const;

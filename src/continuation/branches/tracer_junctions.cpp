@@ -41,10 +41,33 @@ void Tracer::queue_ways(int number) {
           {-1, number, static_cast<int>(w), junction.ways[w].start, junction.depth + 1});
 }
 
-/// Does a special point belong to the junction that the branch has passed right before it? Where that one takes it in
-/// its ways are queued anew.
+/// Says that ways of a second mode may be missing at a junction.
+void Tracer::note_untold(int number) {
+  Junction& junction = at(number);
+  junction.complete = false;
+  junction.why = "another mode vanishes beside this point, nearer than their ways are told apart";
+  doubt(DoubtKind::ways_missing, "branches may be missing: " + junction.why, junction.point,
+        number);
+}
+
+/// A branch point at which the diagram begins may have another one beside it.
+void Tracer::look_beside_start(int number) {
+  try {
+    if (take_in_beside_start(walker_, options_, at(number)) == TakenIn::untold &&
+        at(number).complete)
+      note_untold(number);
+  } catch (const Interrupted&) {
+    interrupted_ = true;
+  }
+}
+
+/// Does a special point belong to the junction that the branch has passed right before it, or at which it begins? Where
+/// that one takes it in its ways are queued anew.
 bool Tracer::belongs_to_last(const Hit& hit) {
-  if (met_.empty() || hit.point.s - met_.back().s > blurred) return false;
+  const int origin = diagram_.branches[static_cast<std::size_t>(current_)].junction;
+  if (met_.empty())
+    return origin >= 0 && hit.point.s <= blurred && belongs_to(walker_, at(origin), hit);
+  if (hit.point.s - met_.back().s > blurred) return false;
   const int last = met_.back().junction;
   if (belongs_to(walker_, at(last), hit)) return true;
   if (!is_fresh(last)) return false;
@@ -54,12 +77,7 @@ bool Tracer::belongs_to_last(const Hit& hit) {
   } catch (const Interrupted&) {
     interrupted_ = true;
   }
-  if (taken == TakenIn::untold && at(last).complete) {
-    at(last).complete = false;
-    at(last).why = "another mode vanishes beside this point, nearer than their ways are told apart";
-    doubt(DoubtKind::ways_missing, "branches may be missing: " + at(last).why, at(last).point,
-          last);
-  }
+  if (taken == TakenIn::untold && at(last).complete) note_untold(last);
   if (taken != TakenIn::yes) return false;
   std::erase_if(diagram_.doubts, [last](const Doubt& doubt) {
     return doubt.junction == last &&

@@ -15,6 +15,8 @@
 namespace springfold::continuation {
 namespace {
 
+/// Twice the largest of the spheres on which ways of close modes are told.
+constexpr double around_spheres = 8 * told_apart;
 /// Of two curves that cross.
 constexpr std::size_t ways_of_two = 4;
 
@@ -263,30 +265,6 @@ Exits exits_of(const ReducedEquation& e, const Search& search, Leaving leaving,
   return result;
 }
 
-/// How many modes vanish along the curve within twice the largest of the spheres? With E = [J; tau^T] some way back,
-/// which is regular, and here, (1 - s) E_back + s E_here is singular at the places s of the modes, 1 is here.
-Index modes_beside(const Walker& walker, const CurvePoint& at) {
-  constexpr double within = 8 * told_apart, back = within / (2 * aside_share);
-  const Vector root = metric_roots(walker.weights), U = scaled_point(at, root);
-  const Vector tau =
-      scaled_point({.x = at.tangent.dx, .lambda = at.tangent.dlambda}, root).normalized();
-  const auto E = [&](double distance) -> std::optional<Matrix> {
-    const auto J = jacobian_at(walker, U - distance * tau, root, at.piece, true);
-    if (!J) return std::nullopt;
-    Matrix extended(U.size(), U.size());
-    extended << J->dense, tau.transpose();
-    return extended;
-  };
-  const auto here = E(0), behind = E(back);
-  if (!here || !behind) return 0;
-  const Matrix change = Lu(*behind).solve(Matrix(*behind - *here));
-  if (!change.allFinite()) return 0;
-  Index count = 0;
-  for (const auto& rate : eigenvalues(change))
-    if (std::abs(1.0 - rate) * back <= within * std::abs(rate)) ++count;
-  return count;
-}
-
 }  // namespace
 
 Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
@@ -311,9 +289,34 @@ Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
   return exits_of(*e, search, Leaving::at_the_point, near_enough);
 }
 
+// With E = [J; tau^T] some way back, which is regular, and here, (1 - s) E_back + s E_here is singular at the places s
+// of the modes, 1 is here.
+Index modes_within(const Walker& walker, const CurvePoint& at, double within) {
+  constexpr double back = around_spheres / (2 * aside_share);
+  const Vector root = metric_roots(walker.weights), U = scaled_point(at, root);
+  const Vector tau =
+      scaled_point({.x = at.tangent.dx, .lambda = at.tangent.dlambda}, root).normalized();
+  const auto E = [&](double distance) -> std::optional<Matrix> {
+    const auto J = jacobian_at(walker, U - distance * tau, root, at.piece, true);
+    if (!J) return std::nullopt;
+    Matrix extended(U.size(), U.size());
+    extended << J->dense, tau.transpose();
+    return extended;
+  };
+  const auto here = E(0), behind = E(back);
+  if (!here || !behind) return 0;
+  const Matrix change = Lu(*behind).solve(Matrix(*behind - *here));
+  if (!change.allFinite()) return 0;
+  Index count = 0;
+  for (const auto& rate : eigenvalues(change))
+    if (std::abs(1.0 - rate) * back <= within * std::abs(rate)) ++count;
+  return count;
+}
+
 Exits exits_of_close_modes(const Walker& walker, const CurvePoint& at,
                            const NearEnough& near_enough) {
-  if (at.x.size() < 2 || walker.problem.structured() || modes_beside(walker, at) != 2)
+  if (at.x.size() < 2 || walker.problem.structured() ||
+      modes_within(walker, at, around_spheres) != 2)
     return {.complete = false, .why = "not two modes alone vanish beside this point"};
   const auto e = reduce(walker, at, 2);
   if (!e) return {.complete = false, .why = "the equations cannot be expanded at this point"};

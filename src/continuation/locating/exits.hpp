@@ -60,6 +60,10 @@ Exits exits_at(const Walker& walker, const CurvePoint& at, int corank,
 Exits exits_of_close_modes(const Walker& walker, const CurvePoint& at,
                            const NearEnough& near_enough = {});
 
+/// How many modes vanish along the curve within a distance of a singular point, its own among them? By what the matrix
+/// makes of them a little way back along the point's tangent; 0 where it is not defined.
+Index modes_within(const Walker& walker, const CurvePoint& at, double within);
+
 /// Corank of [dF/dx dF/dlambda] at a point: how many of its singular values are below the share, which is as good as
 /// the point is known, and separated from the others by a gap, after rows and columns have been divided by their sizes.
 /// Sizes are those of the matrix here or a hundredth of its change within a tenth, whichever is larger: here all of it
