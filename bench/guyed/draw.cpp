@@ -115,7 +115,8 @@ bool try_draw(Random& random, const Kind& kind, Draw& result) {
   const std::vector<Planned> list = planned(bare, count, result.pretension, random);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto& [anchor, wanted, is_second, is_alone] = list[i];
-    if (!is_second) stiffness = log_uniform(random, 0.3, 3);
+    if (!is_second)
+      stiffness = kind.wide ? log_uniform(random, 1e-4, 1e4) : log_uniform(random, 0.3, 3);
     const double stretch = !is_alone ? wanted : choice(random, 2) ? 0 : -wanted;
     const Attached cable = attach(bare, anchor.corner, anchor.at, stiffness, stretch);
     result.structure.cables.push_back(cable.cable);

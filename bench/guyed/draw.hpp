@@ -35,6 +35,7 @@ struct Kind {
   bool space_frame = false;  ///< a frame in space; otherwise one of the other families
   bool mixed =
       false;  ///< every cable, or pair of them, has a pretension of its own; otherwise all have one
+  bool wide = false;  ///< stiffnesses of cables from 1e-4 to 1e4; otherwise from 0.3 to 3
 };
 
 /// One of the families, with 1 to 6 cables that are stretched, slack or just at rest.

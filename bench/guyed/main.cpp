@@ -2,7 +2,7 @@
 // load grows, run as case files and judged against closed forms of the linearised cones.
 //
 //     guyed [N] [seed] [--check] [--threads n] [--named file] [--draw i] [--verbose] [--case file]
-//           [--space-frames] [--mixed]
+//           [--space-frames] [--mixed] [--wide]
 //
 // Draw i of a seed is always the same problem. --named: the draws of a file instead of N of a seed. README.md says what
 // is drawn and what is judged. With --check the exit code is 1 if anything is wrong, or more than one draw in a hundred
@@ -74,18 +74,26 @@ void print_truth(const Draw& draw) {
 
 /// As files of draws have it.
 std::string name_of(const Kind& kind) {
-  return std::string{kind.space_frame ? "frame in space" : ""} +
-         (kind.space_frame && kind.mixed ? " " : "") + (kind.mixed ? "mixed" : "");
+  std::string name;
+  const auto add = [&name](bool is, const char* word) {
+    if (is) name += (name.empty() ? "" : " ") + std::string{word};
+  };
+  add(kind.space_frame, "frame in space");
+  add(kind.mixed, "mixed");
+  add(kind.wide, "wide");
+  return name;
 }
 
 std::optional<Kind> kind_named(const std::string& name) {
-  for (const Kind kind : {Kind{}, Kind{true, false}, Kind{false, true}, Kind{true, true}})
+  for (unsigned pattern = 0; pattern < 8; ++pattern) {
+    const Kind kind{(pattern & 1u) != 0, (pattern & 2u) != 0, (pattern & 4u) != 0};
     if (name == name_of(kind)) return kind;
+  }
   return std::nullopt;
 }
 
-/// Lines "seed draw # what it showed"; before the # "frame in space": a draw of --space-frames, or "mixed": one of
-/// --mixed. @throws std::runtime_error with the line that cannot be read
+/// Lines "seed draw # what it showed"; before the # "frame in space": a draw of --space-frames, "mixed": one of
+/// --mixed, "wide": one of --wide, in this order. @throws std::runtime_error with the line that cannot be read
 std::vector<DrawName> read_names(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read");
@@ -104,7 +112,7 @@ std::vector<DrawName> read_names(const std::string& path) {
     if (!numbers || !kind)
       throw std::runtime_error(
           path + ":" + std::to_string(count) +
-          ": need seed and draw, perhaps \"frame in space\", \"mixed\" or both");
+          ": need seed and draw, perhaps \"frame in space\", \"mixed\", \"wide\" or several");
     name.kind = *kind;
     names.push_back(name);
   }
@@ -223,6 +231,7 @@ int main(int argc, char** argv) {
   app.add_option("--case", settings.file, "with --draw: keep the case in this file");
   app.add_flag("--space-frames", settings.kind.space_frame, "frames in space, nothing else");
   app.add_flag("--mixed", settings.kind.mixed, "every cable, or pair, has a pretension of its own");
+  app.add_flag("--wide", settings.kind.wide, "stiffnesses of cables from 1e-4 to 1e4");
   app.add_flag("--verbose", settings.verbose, "all that was expected and found");
   app.add_flag("--check", settings.check, "exit code 1 if a requirement is not met");
   CLI11_PARSE(app, argc, argv);
