@@ -41,6 +41,7 @@ FollowedCurve limit_points_through(const CaseCurves& curves, const Study& study,
     start.lambda = exact->lambda;
   }
   start.kind = continuation::CriticalKind::limit_point;
+  start.freed = {};
   return follow_both_ways(curves, base_study(study), {start}, EventKind::limit_point, observer);
 }
 
@@ -198,8 +199,9 @@ class Beyond {
                                                      : continuation::CriticalKind::zero;
     if (kind_ == FollowedKind::marked_values) start.value = value_on_(start.piece);
     if (kind_ == FollowedKind::limit_points_of_force)
-      start.value = force_rate_of(
-          curves_, {.x = start.x, .lambda = start.lambda, .tangent = {}, .piece = start.piece});
+      make_limit_of_force(
+          curves_, {.x = start.x, .lambda = start.lambda, .tangent = {}, .piece = start.piece},
+          start);
     return start;
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "branch_rows.hpp"
+#include "freed_body.hpp"
 #include "limits.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/decompositions.hpp"
@@ -147,8 +148,10 @@ CriticalStart start_at(const Member& member, const SpecialPoint& point) {
 
 }  // namespace
 
-continuation::StateFunction force_rate_of(const CaseCurves& curves, const CurvePoint& at) {
-  return rate_by(curves, at, &Evaluator::force_rate);
+void make_limit_of_force(const CaseCurves& curves, const CurvePoint& at, CriticalStart& start) {
+  start.kind = CriticalKind::zero;
+  start.value = rate_by(curves, at, &Evaluator::force_rate);
+  start.freed = freed_of(curves);
 }
 
 continuation::StateFunction marked_value_on(const CaseCurves& curves, const Member& member,
@@ -162,17 +165,20 @@ continuation::StateFunction marked_value_on(const CaseCurves& curves, const Memb
 
 namespace {
 
-/// What is zero at a special point that no matrix tells. Nothing where it is not known.
+/// Makes a start that of a special point that no matrix of the path tells: kind, what is zero there, and its equations.
+/// What is zero is empty where it is not known.
 /// @param here  a state, with the piece on which others are taken
-continuation::StateFunction value_of(const CaseCurves& curves, const Member& member,
-                                     const SpecialPoint& point, const CurvePoint& here) {
+void make_zero(const CaseCurves& curves, const Member& member, const SpecialPoint& point,
+               const CurvePoint& here, CriticalStart& start) {
+  start.kind = CriticalKind::zero;
   switch (point.kind) {
     case EventKind::limit_point:
-      return force_rate_of(curves, here);
+      return make_limit_of_force(curves, here, start);
     case EventKind::stability_change:
-      return stability_value_of(curves, point, here);
+      start.value = stability_value_of(curves, point, here);
+      return;
     default:
-      return marked_value_on(curves, member, point, here.piece);
+      start.value = marked_value_on(curves, member, point, here.piece);
   }
 }
 
@@ -186,13 +192,13 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
   switch (point.kind) {
     case EventKind::limit_point:
       if (hit.kind == continuation::HitKind::limit_point) return start;
-      start.kind = CriticalKind::zero;
-      start.value = value_of(curves, member, point, hit.point);
+      make_zero(curves, member, point, hit.point, start);
       return start;
     case EventKind::branch_point:
       start.kind = CriticalKind::branch_point;
       start.corank = hit.multiplicity;
       if (auto turn = hilltop_start(curves.family(), start, hit.point.tangent)) return turn;
+      start.freed = freed_of(curves);
       return start;
     case EventKind::switching:
     case EventKind::corner_limit_point:
@@ -204,16 +210,14 @@ std::optional<CriticalStart> critical_start(const CaseCurves& curves, const Memb
       why = several_switch(point);
       return std::nullopt;
     case EventKind::user_value:
-      start.kind = CriticalKind::zero;
-      start.value = value_of(curves, member, point, hit.point);
+      make_zero(curves, member, point, hit.point, start);
       if (start.value) return start;
       if (member.quantity(hit.name) == nullptr) break;
       why = point.label + ": several marks of " + hit.name +
             " have one value in the case, and the parameter parts them";
       return std::nullopt;
     case EventKind::stability_change:
-      start.kind = CriticalKind::zero;
-      start.value = value_of(curves, member, point, hit.point);
+      make_zero(curves, member, point, hit.point, start);
       if (start.value) return start;
       break;
     default:
@@ -244,8 +248,9 @@ std::vector<CriticalStart> critical_starts_again(const CaseCurves& curves, const
                                                  const SpecialPoint& point, CriticalStart same) {
   if (same.kind == CriticalKind::zero) {
     const CurvePoint here{.x = same.x, .lambda = same.lambda, .piece = same.piece};
-    same.value = value_of(curves, member, point, here);
+    make_zero(curves, member, point, here, same);
   }
+  if (same.kind == CriticalKind::branch_point) same.freed = freed_of(curves);
   if (same.kind != CriticalKind::surface) return {std::move(same)};
   if (same.turns) same.turns = force_turns(curves);
   std::vector<Index> switches;

@@ -5,9 +5,10 @@
 
 namespace springfold::analysis {
 
-/// d(force)/ds on a piece, the other way round where lambda falls: zero at a limit point of the force.
-continuation::StateFunction force_rate_of(const CaseCurves& curves,
-                                          const continuation::CurvePoint& at);
+/// A start as that of a limit point of the force on the piece of `at`, where d(force)/ds is zero: kind, function and
+/// equations.
+void make_limit_of_force(const CaseCurves& curves, const continuation::CurvePoint& at,
+                         continuation::CriticalStart& start);
 
 /// What is zero at a marked value, or at the extremum of a column, as a function of states on a piece. Empty: no such
 /// column.

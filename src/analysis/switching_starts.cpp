@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "freed_body.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
@@ -219,7 +220,8 @@ std::optional<CriticalStart> start_at_rest(const CaseCurves& curves, const Membe
                         .mu = member.mu,
                         .piece = piece,
                         .corank = corank_of(*member.problem, at, piece),
-                        .resting = point.hit.switches};
+                        .resting = point.hit.switches,
+                        .freed = freed_of(curves)};
     if (start.corank == 0) {
       why = "half-branches leave " + point.label + ", and it is not known which modes vanish there";
       return std::nullopt;

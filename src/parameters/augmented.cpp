@@ -99,6 +99,7 @@ Augmented::Augmented(const Family& family, const CriticalStart& start, NullVecto
     : family_{family}, start_{start}, borders_{std::move(borders)}, n_{start.x.size()} {
   k_ = start.kind == CriticalKind::branch_point ? start.corank : 0;
   weights_ = Vector::Ones(size());
+  if (has_force()) weights_[n_] = 0;
   periods_ = Vector::Zero(size());
   if (const auto problem = family_.at(start.mu)) {
     weights_.head(n_) = problem->metric();

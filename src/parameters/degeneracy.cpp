@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "parameters/freed.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/extended_matrix.hpp"
@@ -43,16 +45,13 @@ Degeneracy turn_of_fold(const Augmented& s, const CurvePoint& p) {
   return aa * bb - ab * ab > 0 ? Degeneracy::isola_centre : Degeneracy::crossing;
 }
 
-/// One more eigenvalue is zero. As many ranks of [dF/dx dF/dlambda] lost as before: a limit point on
-/// the branch itself.
-Degeneracy corank_of_place(const Augmented& s, const CurvePoint& p) {
-  BaseTerms base;
-  const Index lost = s.borders().left.cols() + 1;
-  if (!base_terms(s.family(), s.state(p.x), s.lambda(p.x), p.lambda, s.start().piece, base) ||
-      s.n() < lost)
-    return Degeneracy::corank_two;
-  const Vector values = jacobi_svd(base.J).values;
-  return values[s.n() - lost] > poor * values[0] ? Degeneracy::hilltop : Degeneracy::corank_two;
+/// One more eigenvalue is zero than `known` ones. As many ranks of J = [dF/dx dF/dlambda] lost as before: a limit point
+/// on the branch itself.
+Degeneracy corank_of(const Matrix& J, Index known) {
+  const Index n = J.rows(), lost = known + 1;
+  if (n < lost) return Degeneracy::corank_two;
+  const Vector values = jacobi_svd(J).values;
+  return values[n - lost] > poor * values[0] ? Degeneracy::hilltop : Degeneracy::corank_two;
 }
 
 /// Rates of what turns back at a corner, lambda or what the start says, and of the surface along the curve of one side,
@@ -141,10 +140,55 @@ double other_eigenvalue(const Augmented& s, const CurvePoint& p) {
 }
 
 void watch_bordered(const Augmented& system, std::vector<Watch>& watches) {
+  const auto corank = [&system](const CurvePoint& p) {
+    BaseTerms base;
+    return base_terms(system.family(), system.state(p.x), system.lambda(p.x), p.lambda,
+                      system.start().piece, base)
+               ? corank_of(base.J, system.borders().left.cols())
+               : Degeneracy::corank_two;
+  };
   watches.push_back({Degeneracy::corank_two, "",
                      [&system](const CurvePoint& p) { return other_eigenvalue(system, p); },
-                     EventAction::record,
-                     [&system](const CurvePoint& p) { return corank_of_place(system, p); }, true});
+                     EventAction::record, corank, true});
+}
+
+/// Columns with a row of zeros at `place`.
+Matrix with_zero_row(const Matrix& columns, Index place) {
+  Matrix longer = Matrix::Zero(columns.rows() + 1, columns.cols());
+  longer.topRows(place) = columns.topRows(place);
+  longer.bottomRows(columns.rows() - place) = columns.bottomRows(columns.rows() - place);
+  return longer;
+}
+
+/// On a curve of branch points: where the force has an extremum along the branch one more eigenvalue of the equations
+/// with the coordinate free vanishes. With the borders of dF/dx their determinant is that of dF/dx, bordered, times the
+/// force's rate along the branch.
+void watch_hilltop_of_force(const Augmented& system, std::vector<Watch>& watches) {
+  const Freed& of = system.start().freed;
+  const auto freed = std::make_shared<FreedFamily>(system.family(), of);
+  const Matrix left = with_zero_row(system.borders().left, of.place),
+               right = with_zero_row(system.borders().right, of.place);
+  const auto at = [&system, freed](const CurvePoint& p, BaseTerms& base) {
+    const Vector x = system.state(p.x);
+    const double lambda = system.lambda(p.x);
+    const auto force = freed->force(x, lambda, p.lambda, system.start().piece);
+    return force && base_terms(freed->family(), freed_unknowns(system.start().freed, x, lambda),
+                               *force, p.lambda, system.start().piece, base);
+  };
+  watches.push_back(
+      {Degeneracy::hilltop, of_the_force,
+       [at, left, right](const CurvePoint& p) {
+         BaseTerms base;
+         return at(p, base) ? signed_least(bordered(base.A, {left, right})) : not_a_number;
+       },
+       EventAction::record,
+       [at, known = left.cols()](const CurvePoint& p) {
+         BaseTerms base;
+         return at(p, base) ? corank_of(base.J, known) : Degeneracy::hilltop;
+       },
+       true});
+  // Where units are equal the force is extremal at their branch point all along.
+  watches.back().noise = function_noise;
 }
 
 /// The equations reduced to the modes at a point of the curve.
@@ -219,14 +263,17 @@ std::vector<Watch> watches_of(const Augmented& system, const std::vector<Critica
                      EventAction::record, refine});
   watches.back().noise = function_noise;
   const Index n = system.n();
-  watches.push_back({Degeneracy::extremum,
-                     "",
-                     [n](const CurvePoint& p) { return p.tangent.dx[n]; },
-                     EventAction::record,
-                     {}});
+  watches.push_back(
+      {Degeneracy::extremum,
+       "",
+       [place = system.place_of_lambda()](const CurvePoint& p) { return p.tangent.dx[place]; },
+       EventAction::record,
+       {}});
   watches.back().noise = function_noise;
   if (kind == CriticalKind::limit_point || kind == CriticalKind::branch_point)
     watch_bordered(system, watches);
+  if (kind == CriticalKind::branch_point && system.start().freed.at)
+    watch_hilltop_of_force(system, watches);
   if (kind == CriticalKind::branch_point && system.start().corank == 1) {
     const CurvePoint start{.x = system.start_unknowns(), .lambda = system.start().mu};
     watch_bend(system, start, watches);

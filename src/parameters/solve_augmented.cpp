@@ -1,7 +1,10 @@
 #include "parameters/solve_augmented.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "parameters/freed.hpp"
+#include "parameters/held_modes.hpp"
 #include "springfold/continuation/entry_checks.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
@@ -24,6 +27,16 @@ void check_start(const Family& family, const CriticalStart& start) {
     throw std::invalid_argument("switching: there is no such switch");
   if (start.kind == CriticalKind::zero && !start.value)
     throw std::invalid_argument("value: a point of kind zero needs one");
+}
+
+/// What is asked of a limit point of the force, of its equations with the coordinate free.
+std::optional<CriticalPoint> in_freed(const Family& family, const CriticalStart& start,
+                                      std::optional<CriticalPoint> (*asked)(const Family&,
+                                                                            const CriticalStart&)) {
+  const FreedFamily freed(family, start.freed);
+  const auto begin = freed.start(start);
+  const auto found = begin ? asked(freed.family(), *begin) : std::nullopt;
+  return found ? std::optional{freed.own(*found)} : std::nullopt;
 }
 
 }  // namespace
@@ -101,6 +114,56 @@ double Augmented::rate_of_parting(const Vector& X, double mu, const Vector& rate
   const auto near = place(X + h * rate, mu + h), far = place(X + 2 * h * rate, mu + 2 * h);
   if (!near || !far) return infinity;
   return ((4 * near->G - far->G) / (2 * h)).lpNorm<Eigen::Infinity>();  // without the second order
+}
+
+std::optional<CriticalPoint> polish_critical(const Family& family, const CriticalStart& start) {
+  if (is_of_freed(start)) return in_freed(family, start, polish_critical);
+  if (holds_modes(start)) {
+    const HeldFamily held(family, start);
+    const auto point = polish_critical(held.family(), held.start());
+    // A start off the path by its modes is held there: the residual that is left grows with the square of that.
+    if (!point || held.unfolding(*point) > function_noise) return std::nullopt;
+    return held.own(*point);
+  }
+  const auto system = system_at(family, start);
+  if (!system) return std::nullopt;
+  const auto X = solve_at(*system, system->start_unknowns(), start.mu);
+  if (!X || system->unfolding(*X) > kept_within) return std::nullopt;
+  return CriticalPoint{.x = system->state(*X), .lambda = system->lambda(*X), .mu = start.mu};
+}
+
+std::optional<CriticalPoint> critical_rate(const Family& family, const CriticalStart& start) {
+  if (is_of_freed(start)) return in_freed(family, start, critical_rate);
+  if (holds_modes(start)) {
+    const HeldFamily held(family, start);
+    const auto point = critical_rate(held.family(), held.start());
+    if (!point) return std::nullopt;
+    const double size = std::max(1.0, point->dx.lpNorm<Eigen::Infinity>());
+    if (held.unfolding_of_rate(*point) > kept_within * size) return std::nullopt;
+    const CriticalPoint own = held.own(*point);
+    return parts_modes(family, start, own) ? std::nullopt : std::optional{own};
+  }
+  const auto system = system_at(family, start);
+  if (!system) return std::nullopt;
+  const auto X = solve_at(*system, system->start_unknowns(), start.mu);
+  if (!X) return std::nullopt;
+  Matrix J;
+  Vector by_mu;
+  if (!system->sure_derivatives(*X, start.mu, J, by_mu)) return std::nullopt;
+  const FullPivotLu lu(J);
+  if (!lu.is_invertible()) return std::nullopt;
+  const Vector rate = -lu.solve(by_mu);
+  // With a unit of a small parameter everything changes little: then only rounding of differences is nothing.
+  const double own = rate.lpNorm<Eigen::Infinity>(), size = std::max(1.0, own);
+  if (!rate.allFinite() || system->unfolding(rate) > kept_within * size ||
+      system->rate_of_parting(*X, start.mu, rate) > std::max(poor * own, residual_level))
+    return std::nullopt;
+  return CriticalPoint{.x = system->state(*X),
+                       .lambda = system->lambda(*X),
+                       .mu = start.mu,
+                       .dx = system->state(rate),
+                       .dlambda = system->lambda(rate),
+                       .dmu = 1};
 }
 
 }  // namespace springfold::continuation

@@ -6,6 +6,7 @@
 
 #include "parameters/augmented.hpp"
 #include "parameters/degeneracy.hpp"
+#include "parameters/freed.hpp"
 #include "parameters/held_modes.hpp"
 #include "parameters/return_to_start.hpp"
 #include "parameters/solve_augmented.hpp"
@@ -277,6 +278,7 @@ class Follower {
                         .point = critical_point(hit.point, n),
                         .tag = watch.tag};
       if (watch.refine) found.kind = watch.refine(hit.point);
+      if (found.kind == Degeneracy::corank_two) found.name.clear();
       if (watch.name_there) found.name = watch.name_there(hit.point);
       curve_.hits.push_back(std::move(found));
     }
@@ -299,12 +301,20 @@ class Follower {
              kind == Degeneracy::touches_surface || kind == Degeneracy::turn ||
              kind == Degeneracy::hilltop;
     };
+    // Where another mode vanishes it does so with the coordinate free, too.
+    const auto again = std::unique(curve_.hits.begin(), curve_.hits.end(),
+                                   [](const CriticalHit& a, const CriticalHit& b) {
+                                     return a.kind == Degeneracy::corank_two && b.kind == a.kind &&
+                                            b.point.s - a.point.s <= same_place;
+                                   });
+    curve_.hits.erase(again, curve_.hits.end());
     const std::vector<CriticalHit> all = curve_.hits;
     std::erase_if(curve_.hits, [&](const CriticalHit& hit) {
       // Another mode that takes no part in how the branch bends.
       if (hit.kind == Degeneracy::bends_other_way &&
           std::any_of(all.begin(), all.end(), [&](const CriticalHit& other) {
-            return (other.kind == Degeneracy::corank_two || other.kind == Degeneracy::hilltop) &&
+            return (other.kind == Degeneracy::corank_two ||
+                    (other.kind == Degeneracy::hilltop && other.name != of_the_force)) &&
                    std::abs(other.point.s - hit.point.s) <= same_place;
           }))
         return true;
@@ -343,57 +353,11 @@ CriticalCurve follow_critical(const Family& family, const CriticalStart& start, 
                               const std::vector<CriticalEvent>& events, const TraceOptions& options,
                               const std::function<bool(const CriticalPoint&)>& observer,
                               const FurtherPoints& further) {
+  if (is_of_freed(start))
+    return follow_freed(family, start, growing, events, options, observer, further);
   if (holds_modes(start))
     return follow_held(family, start, growing, events, options, observer, further);
   return Follower(family, start, events, options, observer, further).follow(growing);
-}
-
-std::optional<CriticalPoint> polish_critical(const Family& family, const CriticalStart& start) {
-  if (holds_modes(start)) {
-    const HeldFamily held(family, start);
-    const auto point = polish_critical(held.family(), held.start());
-    // A start off the path by its modes is held there: the residual that is left grows with the square of that.
-    if (!point || held.unfolding(*point) > function_noise) return std::nullopt;
-    return held.own(*point);
-  }
-  const auto system = system_at(family, start);
-  if (!system) return std::nullopt;
-  const auto X = solve_at(*system, system->start_unknowns(), start.mu);
-  if (!X || system->unfolding(*X) > kept_within) return std::nullopt;
-  return CriticalPoint{.x = system->state(*X), .lambda = system->lambda(*X), .mu = start.mu};
-}
-
-std::optional<CriticalPoint> critical_rate(const Family& family, const CriticalStart& start) {
-  if (holds_modes(start)) {
-    const HeldFamily held(family, start);
-    const auto point = critical_rate(held.family(), held.start());
-    if (!point) return std::nullopt;
-    const double size = std::max(1.0, point->dx.lpNorm<Eigen::Infinity>());
-    if (held.unfolding_of_rate(*point) > kept_within * size) return std::nullopt;
-    const CriticalPoint own = held.own(*point);
-    return parts_modes(family, start, own) ? std::nullopt : std::optional{own};
-  }
-  const auto system = system_at(family, start);
-  if (!system) return std::nullopt;
-  const auto X = solve_at(*system, system->start_unknowns(), start.mu);
-  if (!X) return std::nullopt;
-  Matrix J;
-  Vector by_mu;
-  if (!system->sure_derivatives(*X, start.mu, J, by_mu)) return std::nullopt;
-  const FullPivotLu lu(J);
-  if (!lu.is_invertible()) return std::nullopt;
-  const Vector rate = -lu.solve(by_mu);
-  // With a unit of a small parameter everything changes little: then only rounding of differences is nothing.
-  const double own = rate.lpNorm<Eigen::Infinity>(), size = std::max(1.0, own);
-  if (!rate.allFinite() || system->unfolding(rate) > kept_within * size ||
-      system->rate_of_parting(*X, start.mu, rate) > std::max(poor * own, residual_level))
-    return std::nullopt;
-  return CriticalPoint{.x = system->state(*X),
-                       .lambda = system->lambda(*X),
-                       .mu = start.mu,
-                       .dx = system->state(rate),
-                       .dlambda = system->lambda(rate),
-                       .dmu = 1};
 }
 
 }  // namespace springfold::continuation

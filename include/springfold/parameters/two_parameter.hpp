@@ -29,6 +29,21 @@ using StateFunction =
 /// The rate of something along the tangent of a point, at a second parameter; nothing outside its domain.
 using RateFunction = std::function<std::optional<double>(const CurvePoint& point, double mu)>;
 
+/// The equations of a family in which lambda prescribes a coordinate, with that coordinate free:
+///
+///     E(X; mu) = p e,     X = (x, lambda)     with p the force along the coordinate, e the unit vector of its row.
+///
+/// Without that row they are those of the family, multiplied by any regular matrix. Where p has an extremum along the
+/// curve of one mu it has a limit point in p, with all that limit points degenerate into.
+struct Freed {
+  /// E at mu, of n + 1 unknowns and with the family's switches, lambda without a meaning; valid until the next call.
+  /// Nothing where the family is not defined. Empty: there are no such equations.
+  std::function<std::optional<ProblemView>(double mu)> at{};
+  /// Of the coordinate among the unknowns, and of its row; before it and behind it stands x.
+  Index place = -1;
+  double unit = 1;  ///< coordinate = unit * lambda
+};
+
 enum class CriticalKind {
   limit_point,   ///< dF/dx singular, dF/dlambda outside its range: F = 0, bordered function g = 0
   branch_point,  ///< dF/dx singular on a branch that the parameters keep
@@ -56,6 +71,9 @@ struct CriticalStart {
   /// Kind branch_point: switches that are zero all along the branch, which is crossed in `piece` to one side of them.
   /// The curve ends where one of them leaves zero, and where the mode comes to its surface.
   std::vector<Index> resting{};
+  /// Kind zero, where the function is the rate of the force along the curve of one mu: what is followed is the limit
+  /// point of these equations instead. Kind branch_point: hilltops of the force are told too.
+  Freed freed{};
 };
 
 /// A point of a critical curve. Rates are by its arc length, in the problem's metric.
@@ -72,7 +90,7 @@ enum class Degeneracy {
   cusp,                   ///< two limit points merge: mu turns back
   isola_centre,           ///< a closed branch shrinks to a point: mu turns back
   crossing,               ///< two branches cross: mu turns back
-  hilltop,                ///< branch point on a limit point
+  hilltop,                ///< branch point on a limit point, of lambda or of the force (Freed)
   branch_points_merge,    ///< a pair of branch points is born: mu turns back
   corank_two,             ///< a second eigenvalue vanishes
   fold_meets_activation,  ///< the limit point, or the branch point, reaches a switching surface
