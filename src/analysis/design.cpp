@@ -117,8 +117,8 @@ class Design {
 
   void add_requirements(const FoundDesign& found) {
     const auto first = search_.first_ways();
-    const auto before = search_.assess(Vector::Zero(count()), first);
-    const auto after = search_.assess(found.changes, first);
+    const auto before = search_.judge(Vector::Zero(count()), first);
+    const auto after = search_.judge(found.changes, first);
     report_.requirements = after ? after->requirements : search_.requirements().unknown();
     for (std::size_t i = 0; i < report_.requirements.size(); ++i)
       report_.requirements[i].before =
@@ -152,7 +152,7 @@ class Design {
     }
     if (changes == found.changes) return false;
     const auto holds_at = [&](const Vector& at) {
-      const auto there = search_.assess(at, search_.first_ways());
+      const auto there = search_.judge(at, search_.first_ways());
       return there && all_hold(there->requirements);
     };
     if (holds_at(changes)) return false;
@@ -192,7 +192,7 @@ class Design {
     const auto beside = [&](double inwards) {
       const Vector way = search_.inwards(found, std::abs(inwards));
       const Vector changes = found.changes + (inwards < 0 ? Vector(-way) : way);
-      return search_.assess(changes, search_.first_ways());
+      return search_.judge(changes, search_.first_ways());
     };
     const auto distance = confirmed_beside([&](double inwards) -> std::optional<bool> {
       const auto there = beside(inwards);

@@ -77,13 +77,14 @@ void DesignSearch::conditions(FoundDesign& design) {
   design.multipliers.clear();
   design.optimality = std::numeric_limits<double>::quiet_NaN();
   design.is_least = false;
-  const auto at = assess(design.changes, design.ways);
+  const auto at = judge(design.changes, design.ways);
   if (!at) return;
   using Cause = Conditions::Cause;
   const Conditions all = balance(design, *at);
   Matrix rows(std::ssize(all.rows), all.df.size());
   for (Index i = 0; i < rows.rows(); ++i)
     rows.row(i) = all.rows[static_cast<std::size_t>(i)].transpose();
+  if (!rows.allFinite()) return;  // nothing shows that the change is the least one
   const Vector m = multipliers(all.df, rows);
   const Vector rest = rows.rows() > 0 ? Vector(all.df + rows.transpose() * m) : all.df;
   const double size = all.df.norm();
@@ -111,7 +112,7 @@ void DesignSearch::conditions(FoundDesign& design) {
 }
 
 Vector DesignSearch::inwards(const FoundDesign& design, double size) {
-  const auto at = assess(design.changes, design.ways);
+  const auto at = judge(design.changes, design.ways);
   Vector way = Vector::Zero(low_.size());
   if (!at) return way;
   for (Index i = 0; i < at->g.size(); ++i) {

@@ -32,6 +32,19 @@ bool is_among(const std::vector<std::size_t>& list, std::size_t one) {
   return list.empty() || std::find(list.begin(), list.end(), one) != list.end();
 }
 
+/// With rates of zero where those of requirements that jump are not defined: the boundary tells of these. Nothing where
+/// others are not.
+std::optional<Assessment> with_known_rates(std::optional<Assessment> at,
+                                           const std::vector<std::size_t>& jumping) {
+  for (Index i = 0; at && i < at->g.size(); ++i) {
+    if (at->dg.row(i).allFinite()) continue;
+    const std::size_t of = at->of[static_cast<std::size_t>(i)];
+    if (std::find(jumping.begin(), jumping.end(), of) == jumping.end()) return std::nullopt;
+    at->dg.row(i).setZero();
+  }
+  return at;
+}
+
 class BoundarySearch {
  public:
   BoundarySearch(const JumpProblem& problem, JumpEnd from)
@@ -183,7 +196,7 @@ std::optional<Vector> BoundarySearch::restored(const Vector& x, const Assessment
 
 /// One step with the boundary as it is known. @returns whether the change got smaller
 bool BoundarySearch::move() {
-  const auto here = problem_.judge(end_.changes, {});
+  const auto here = with_known_rates(problem_.judge(end_.changes, {}), end_.jumping);
   if (!here) return false;
   while (!problem_.stopped()) {
     // The small problem's line search stops short in a unit that does not suit the step.
@@ -209,7 +222,7 @@ bool BoundarySearch::move() {
 
 /// The place as near to the boundary as can be told.
 void BoundarySearch::sharpen() {
-  const auto here = problem_.judge(end_.changes, {});
+  const auto here = with_known_rates(problem_.judge(end_.changes, {}), end_.jumping);
   if (!here) return;
   beside_ = 0;
   const auto found = restored(end_.changes, *here, closeness(), steepest * known_);
@@ -293,7 +306,7 @@ bool holds(const std::optional<Assessment>& at, const std::vector<std::size_t>& 
 JumpEnd drawn_back(const JumpProblem& problem, const Vector& changes) {
   JumpEnd end{.changes = changes};
   for (int i = 0; i < most_steps && !end.jumps && !problem.stopped(); ++i) {
-    const auto here = problem.judge(end.changes, {});
+    const auto here = with_known_rates(problem.judge(end.changes, {}), {});
     if (!here) break;
     const double length = end.changes.norm();
     const Vector target = SmallProblem{problem, end.changes, *here}.least(end.changes, length);

@@ -22,7 +22,7 @@ struct JumpProblem {
   Vector low{}, high{};  ///< bounds
   bool is_sum = false;   ///< small is the sum of the sizes; otherwise the norm
   /// Some of the requirements, all if `only` is empty, in the way in which they hold or come nearest to it; rates are
-  /// those by u. Nothing where they cannot be judged.
+  /// those by u, as far as they are defined. Nothing where they cannot be judged.
   std::function<std::optional<Assessment>(const Vector& u, const std::vector<std::size_t>& only)>
       judge{};
   std::function<bool()> stopped{};

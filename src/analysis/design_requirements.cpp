@@ -146,8 +146,8 @@ std::optional<Assessment> Requirements::assess(const Vector& values, const std::
     result.g[static_cast<Index>(i)] = sheet.g[i];
     result.dg.row(static_cast<Index>(i)) = sheet.dg[i].transpose();
   }
-  if (!result.g.allFinite() || !result.dg.allFinite()) {
-    why = "a rate by the parameters is not defined there";
+  if (!result.g.allFinite()) {
+    why = "a requirement is not defined there";
     return std::nullopt;
   }
   return result;

@@ -18,8 +18,10 @@ enum class Way { late, climbing };
 struct Assessment {
   std::vector<FoundRequirement> requirements{};  ///< reached values in `after`; `holds` is set
   Vector g{};                                    ///< scaled: <= 0 holds
-  Matrix dg{};                                   ///< by the parameters [1/unit of the case]
-  std::vector<std::size_t> of{};                 ///< per inequality: its requirement
+  /// By the parameters [1/unit of the case]. Rows that are not defined, as beside a place where branches of the path
+  /// cross, say nothing of g.
+  Matrix dg{};
+  std::vector<std::size_t> of{};  ///< per inequality: its requirement
 };
 
 /// Violations up to this are rounding, in the scale of each requirement.

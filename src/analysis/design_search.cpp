@@ -93,8 +93,7 @@ Vector DesignSearch::start(int k) const {
   return at;
 }
 
-std::optional<Assessment> DesignSearch::assess(const Vector& changes,
-                                               const std::vector<Way>& ways) {
+std::optional<Assessment> DesignSearch::judge(const Vector& changes, const std::vector<Way>& ways) {
   if (stopped_) return std::nullopt;
   if (last_changes_.size() == changes.size() && last_changes_ == changes && last_ways_ == ways)
     return last_;
@@ -105,6 +104,14 @@ std::optional<Assessment> DesignSearch::assess(const Vector& changes,
   last_ways_ = ways;
   if (!last_) why_ = why;
   return last_;
+}
+
+std::optional<Assessment> DesignSearch::assess(const Vector& changes,
+                                               const std::vector<Way>& ways) {
+  auto at = judge(changes, ways);
+  if (!at || at->dg.allFinite()) return at;
+  why_ = "a rate by the parameters is not defined there";
+  return std::nullopt;
 }
 
 Vector DesignSearch::to_variables(const Vector& changes) const {
@@ -162,7 +169,7 @@ std::optional<Assessment> DesignSearch::nearest(const Vector& changes, const std
   std::stable_partition(all.begin(), all.end(), [&](const auto& one) { return one == ways; });
   std::optional<Assessment> best;
   for (const auto& one : all) {
-    const auto at = assess(changes, one);
+    const auto at = judge(changes, one);
     if (!at || (best && most_missed(*best, only) <= most_missed(*at, only))) continue;
     best = at;
     best->dg = at->dg * units_.asDiagonal();
@@ -172,7 +179,7 @@ std::optional<Assessment> DesignSearch::nearest(const Vector& changes, const std
 }
 
 double DesignSearch::violation_at(const Vector& changes, const std::vector<Way>& ways) {
-  const auto at = assess(changes, ways);
+  const auto at = judge(changes, ways);
   return at ? std::max(at->g.maxCoeff(), 0.0) : HUGE_VAL;
 }
 

@@ -34,13 +34,15 @@ class DesignSearch {
   double size_of(const Vector& changes) const;
   const Requirements& requirements() const { return requirements_; }
   int designs() const { return designs_; }
-  /// The requirements at a design; nothing where they cannot be judged.
-  std::optional<Assessment> assess(const Vector& changes, const std::vector<Way>& ways);
+  /// The requirements at a design, rates as far as they are defined; nothing where they cannot be judged.
+  std::optional<Assessment> judge(const Vector& changes, const std::vector<Way>& ways);
   std::vector<Way> first_ways() const;
   /// Changes that lead away from what limits a design, of length `size`, within the bounds.
   Vector inwards(const FoundDesign& design, double size);
 
  private:
+  /// The same where all rates are defined.
+  std::optional<Assessment> assess(const Vector& changes, const std::vector<Way>& ways);
   /// What is searched for: u = combine * v. For the sum of changes v are what grows and what falls, both >= 0.
   struct Variables {
     Matrix combine{};

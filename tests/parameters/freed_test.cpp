@@ -10,8 +10,8 @@
 namespace springfold::continuation {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double sway = 0.2;  ///< stiffness of a spring across
+constexpr double radians_of_degree = std::numbers::pi / 180;
+constexpr double sway_of_truss = 0.2;  ///< stiffness of a spring across
 
 /// Two bars of stiffness 1 from (-1, 0) and (1, 0) to an apex at (x, y), free length 1/cos(alpha), and a spring across:
 /// what holds the apex, and its derivatives.
@@ -31,8 +31,8 @@ struct Truss {
     return terms(x, F, J);
   }
   bool terms(const Vector& x, Vector& F, Matrix& J) const {
-    F = Vector{{sway * x[0], 0}};
-    J = Matrix{{sway, 0}, {0, 0}};
+    F = Vector{{sway_of_truss * x[0], 0}};
+    J = Matrix{{sway_of_truss, 0}, {0, 0}};
     for (const double foot : {-1.0, 1.0}) {
       const Vector d = x - Vector{{foot, 0}};
       const double l = d.norm(), r = 1 / std::cos(alpha) / l;
@@ -43,7 +43,7 @@ struct Truss {
   }
 };
 
-constexpr double unit = -0.5;  ///< y = unit * lambda
+constexpr double unit_of_drive = -0.5;  ///< y = unit_of_drive * lambda
 
 /// The same with y prescribed: an equation for x.
 struct DrivenTruss {
@@ -52,15 +52,15 @@ struct DrivenTruss {
   static Index size() { return 1; }
   static bool symmetric() { return true; }
   bool residual(const Vector& x, double lambda, Vector& F) const {
-    truss.residual(Vector{{x[0], unit * lambda}}, 0, F);
+    truss.residual(Vector{{x[0], unit_of_drive * lambda}}, 0, F);
     F.conservativeResize(1);
     return true;
   }
   bool derivatives(const Vector& x, double lambda, Matrix& J, Vector& by_lambda) const {
     Matrix both;
-    truss.derivatives(Vector{{x[0], unit * lambda}}, 0, both, by_lambda);
+    truss.derivatives(Vector{{x[0], unit_of_drive * lambda}}, 0, both, by_lambda);
     J = both.topLeftCorner(1, 1);
-    by_lambda = unit * both.topRightCorner(1, 1);
+    by_lambda = unit_of_drive * both.topRightCorner(1, 1);
     return true;
   }
 };
@@ -71,12 +71,12 @@ Family driven_trusses() {
 Freed free_trusses() {
   return {.at = family_of<Truss>([](double alpha) { return Truss{alpha}; }).at,
           .place = 1,
-          .unit = unit};
+          .unit = unit_of_drive};
 }
 
 /// A symmetric state whose bars stand at the angle f.
 CriticalStart state_at(CriticalKind kind, double alpha, double f) {
-  CriticalStart start = start_at(kind, single(0), std::tan(f) / unit, alpha);
+  CriticalStart start = start_at(kind, single(0), std::tan(f) / unit_of_drive, alpha);
   start.freed = free_trusses();
   return start;
 }
@@ -87,15 +87,16 @@ double force_at(double alpha, double f) {
   return 2 * (1 / std::cos(alpha) - 1 / std::cos(f)) * std::sin(f);
 }
 
-/// Where branch points meet the limit point: cos(alpha) = (2 + sway/2)^(-3/2).
-const double alpha_of_hilltop = std::acos(std::pow(2 + sway / 2, -1.5));
+/// Where branch points meet the limit point: cos(alpha) = (2 + sway_of_truss/2)^(-3/2).
+const double alpha_of_hilltop = std::acos(std::pow(2 + sway_of_truss / 2, -1.5));
 
-/// The branch point: sin^2 f cos f = (1 + sway/2) cos(alpha), the upper one of two.
+/// The branch point: sin^2 f cos f = (1 + sway_of_truss/2) cos(alpha), the upper one of two.
 double angle_of_branching(double alpha) {
   double low = std::atan(std::sqrt(2)), high = alpha;
   for (int i = 0; i < 100; ++i) {
     const double f = (low + high) / 2;
-    const bool is_above = std::cos(f) * std::pow(std::sin(f), 2) > (1 + sway / 2) * std::cos(alpha);
+    const bool is_above =
+        std::cos(f) * std::pow(std::sin(f), 2) > (1 + sway_of_truss / 2) * std::cos(alpha);
     (is_above ? low : high) = f;
   }
   return (low + high) / 2;
@@ -108,57 +109,57 @@ void expect_hilltop(const CriticalCurve& curve) {
   EXPECT_NEAR(hilltops[0].point.mu, alpha_of_hilltop, 1e-10);
   ASSERT_EQ(hilltops[0].point.x.size(), 1);
   EXPECT_NEAR(hilltops[0].point.x[0], 0, 1e-9);
-  EXPECT_NEAR(force_at(alpha_of_hilltop, std::atan(unit * hilltops[0].point.lambda)),
+  EXPECT_NEAR(force_at(alpha_of_hilltop, std::atan(unit_of_drive * hilltops[0].point.lambda)),
               2.3073794659743, 1e-9);
 }
 
 TEST(Freed, CurveOfLimitPointsOfTheForceHasTheHilltopOfTheSameTrussUnderItsLoad) {
-  const double alpha = 66 * degree;
+  const double alpha = 66 * radians_of_degree;
   const auto curve =
       follow_critical(driven_trusses(), state_at(CriticalKind::zero, alpha, angle_of_limit(alpha)),
-                      true, {stop_at(60 * degree, 78 * degree)}, {});
+                      true, {stop_at(60 * radians_of_degree, 78 * radians_of_degree)}, {});
   expect_hilltop(curve);
   EXPECT_TRUE(hits_of(curve, Degeneracy::corank_two).empty());
   for (const CriticalPoint& p : curve.points) {
-    EXPECT_NEAR(std::atan(unit * p.lambda), angle_of_limit(p.mu), 1e-9);
+    EXPECT_NEAR(std::atan(unit_of_drive * p.lambda), angle_of_limit(p.mu), 1e-9);
     EXPECT_NEAR(p.x[0], 0, 1e-9);
   }
 }
 
 TEST(Freed, CurveOfDrivenBranchPointsHasItToo) {
-  const double alpha = 76 * degree;
+  const double alpha = 76 * radians_of_degree;
   const auto curve = follow_critical(
       driven_trusses(), state_at(CriticalKind::branch_point, alpha, angle_of_branching(alpha)),
-      false, {stop_at(70 * degree, 78 * degree)}, {});
+      false, {stop_at(65 * radians_of_degree, 78 * radians_of_degree)}, {});
   EXPECT_TRUE(curve.kept);
   expect_hilltop(curve);
 }
 
 TEST(Freed, ArcLengthsAreThoseOfTheDrivenState) {
-  const double alpha = 66 * degree;
+  const double alpha = 66 * radians_of_degree;
   const auto curve =
       follow_critical(driven_trusses(), state_at(CriticalKind::zero, alpha, angle_of_limit(alpha)),
-                      true, {stop_at(60 * degree, 78 * degree)}, {});
+                      true, {stop_at(60 * radians_of_degree, 78 * radians_of_degree)}, {});
   for (const CriticalPoint& p : curve.points)
     EXPECT_NEAR(std::hypot(p.dx.norm(), p.dlambda, p.dmu), 1, 1e-9);
 }
 
 TEST(Freed, RateOfALimitPointOfTheForceIsThatOfTheClosedForm) {
-  const double alpha = 66 * degree, f = angle_of_limit(alpha);
+  const double alpha = 66 * radians_of_degree, f = angle_of_limit(alpha);
   const auto rate = critical_rate(driven_trusses(), state_at(CriticalKind::zero, alpha, f));
   ASSERT_TRUE(rate);
   // 3 cos^2 f sin f df = sin(alpha) dalpha, and y = tan f.
   const double df = std::sin(alpha) / (3 * std::pow(std::cos(f), 2) * std::sin(f));
-  EXPECT_NEAR(rate->dlambda, df / std::pow(std::cos(f), 2) / unit, 1e-9);
+  EXPECT_NEAR(rate->dlambda, df / std::pow(std::cos(f), 2) / unit_of_drive, 1e-9);
   EXPECT_NEAR(rate->dx[0], 0, 1e-9);
 }
 
 TEST(Freed, LimitPointOfTheForceIsFoundFromBeside) {
-  const double alpha = 66 * degree, f = angle_of_limit(alpha);
+  const double alpha = 66 * radians_of_degree, f = angle_of_limit(alpha);
   CriticalStart start = state_at(CriticalKind::zero, alpha, f + 0.01);
   const auto point = polish_critical(driven_trusses(), start);
   ASSERT_TRUE(point);
-  EXPECT_NEAR(std::atan(unit * point->lambda), f, 1e-12);
+  EXPECT_NEAR(std::atan(unit_of_drive * point->lambda), f, 1e-12);
 }
 
 }  // namespace
