@@ -264,7 +264,19 @@ JumpEnd BoundarySearch::run(const std::vector<Vector>& known) {
   return end_;
 }
 
-/// Back on the straight way towards another place that misses the requirements.
+}  // namespace
+
+double most_missed(const Assessment& at, const std::vector<std::size_t>& only) {
+  double most = -HUGE_VAL;
+  for (Index i = 0; i < at.g.size(); ++i)
+    if (is_among(only, at.of[static_cast<std::size_t>(i)])) most = std::max(most, at.g[i]);
+  return most;
+}
+
+bool holds(const std::optional<Assessment>& at, const std::vector<std::size_t>& only) {
+  return at && most_missed(*at, only) <= design_tolerance;
+}
+
 JumpEnd drawn_back_to(const JumpProblem& problem, const Vector& changes, const Vector& target) {
   const Vector way = target - changes;
   double good = 0, bad = 1;
@@ -288,19 +300,6 @@ JumpEnd drawn_back_to(const JumpProblem& problem, const Vector& changes, const V
       end.jumping.push_back(of);
   }
   return end;
-}
-
-}  // namespace
-
-double most_missed(const Assessment& at, const std::vector<std::size_t>& only) {
-  double most = -HUGE_VAL;
-  for (Index i = 0; i < at.g.size(); ++i)
-    if (is_among(only, at.of[static_cast<std::size_t>(i)])) most = std::max(most, at.g[i]);
-  return most;
-}
-
-bool holds(const std::optional<Assessment>& at, const std::vector<std::size_t>& only) {
-  return at && most_missed(*at, only) <= design_tolerance;
 }
 
 JumpEnd drawn_back(const JumpProblem& problem, const Vector& changes) {

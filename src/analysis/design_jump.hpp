@@ -45,6 +45,9 @@ struct JumpEnd {
   bool is_known = false;  ///< the search came to a known end, and stopped
 };
 
+/// Back on the straight way from a place that meets the requirements towards another one that does not.
+JumpEnd drawn_back_to(const JumpProblem& problem, const Vector& changes, const Vector& target);
+
 /// Where requirements jump no derivative leads to the place: it is bracketed on the straight way to where the change
 /// were least if there were no jump, which is the case itself unless other requirements keep from it.
 /// @param changes  of a design that meets the requirements, as the case itself does not

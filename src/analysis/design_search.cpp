@@ -288,18 +288,28 @@ std::optional<FoundDesign> DesignSearch::followed(const Candidate& from, KnownEn
   for (const Vector& other : known.missed)
     if (are_alike(other, design.changes)) return std::nullopt;
   known.missed.push_back(design.changes);
-  JumpProblem problem{.low = low_, .high = high_, .is_sum = variables_.is_sum};
-  problem.judge = [&](const Vector& u, const std::vector<std::size_t>& only) {
-    return nearest(u, design.ways, only);
-  };
-  problem.stopped = [this] { return stopped_; };
+  const JumpProblem problem = jump_problem(design.ways);
   JumpEnd end = drawn_back(problem, design.changes);
   if (end.jumps && !end.jumping.empty())
     end = least_on_boundary(problem, std::move(end), known.least);
   if (end.is_known) return std::nullopt;
   if (end.slope.size() > 0) known.least.push_back(end.changes);
   design.changes = end.changes;
-  if (!end.jumps) return smoothest(design);
+  return end.jumps ? along_jump(std::move(design), end) : smoothest(design);
+}
+
+/// Refers to the ways.
+JumpProblem DesignSearch::jump_problem(const std::vector<Way>& ways) {
+  JumpProblem problem{.low = low_, .high = high_, .is_sum = variables_.is_sum};
+  problem.judge = [this, &ways](const Vector& u, const std::vector<std::size_t>& only) {
+    return nearest(u, ways, only);
+  };
+  problem.stopped = [this] { return stopped_; };
+  return problem;
+}
+
+FoundDesign DesignSearch::along_jump(FoundDesign design, const JumpEnd& end) {
+  design.changes = end.changes;
   design.jumps = end.jumps;
   design.jumping = end.jumping;
   design.jump_slope = end.slope;
@@ -307,13 +317,44 @@ std::optional<FoundDesign> DesignSearch::followed(const Candidate& from, KnownEn
   return design;
 }
 
+/// A search by derivatives steps over a jump, to the smooth boundary of other designs, or none.
+std::vector<DesignSearch::Candidate> DesignSearch::met_starts() {
+  std::vector<Candidate> list;
+  const std::vector<Way> ways = first_ways();
+  std::vector<Vector> places;
+  for (Index i = 0; i < low_.size(); ++i)
+    for (const double bound : {low_[i], high_[i]})
+      places.emplace_back(bound * Vector::Unit(low_.size(), i));
+  for (int k = 1; k < study_.design.starts; ++k) places.push_back(start(k));
+  for (const Vector& from : places) {
+    if (stopped_ || !holds(nearest(from, ways, {}))) continue;
+    double good = 1, bad = 0;
+    while (good - bad > roughly_met && !stopped_) {
+      const double middle = 0.5 * (good + bad);
+      (holds(nearest(middle * from, ways, {})) ? good : bad) = middle;
+    }
+    list.push_back({ways, good * from, 0});
+  }
+  return list;
+}
+
+/// The place of the jump on the straight way to the case, and from there along the boundary.
+/// @returns nothing where no requirement jumps there, or if that leads to a known end
+std::optional<FoundDesign> DesignSearch::followed_to_jump(const Candidate& from, KnownEnds& known) {
+  const JumpProblem problem = jump_problem(from.ways);
+  JumpEnd end = drawn_back_to(problem, from.changes, Vector::Zero(low_.size()));
+  if (!end.jumps || end.jumping.empty()) return std::nullopt;
+  end = least_on_boundary(problem, std::move(end), known.least);
+  if (end.is_known || !holds(nearest(end.changes, from.ways, {}))) return std::nullopt;
+  if (end.slope.size() > 0) known.least.push_back(end.changes);
+  return along_jump({.status = DesignStatus::met, .changes = end.changes, .ways = from.ways}, end);
+}
+
 FoundDesign DesignSearch::best_of(const std::vector<Candidate>& list) {
   FoundDesign best;
   KnownEnds ends;
-  for (const Candidate* one : promising(list)) {
-    if (stopped_) break;
-    const auto found = followed(*one, ends);
-    if (!found) continue;
+  const auto take = [&](const std::optional<FoundDesign>& found) {
+    if (!found) return;
     const bool is_met = found->status == DesignStatus::met;
     const bool best_is_met = best.status == DesignStatus::met;
     const bool better =
@@ -323,7 +364,12 @@ FoundDesign DesignSearch::best_of(const std::vector<Candidate>& list) {
          misses_less({found->ways, found->changes, found->violation},
                      {best.ways, best.changes, best.violation}));
     if (better) best = *found;
-  }
+  };
+  for (const Candidate* one : promising(list))
+    if (!stopped_) take(followed(*one, ends));
+  const std::vector<Candidate> met = met_starts();
+  for (const Candidate* one : promising(met))
+    if (!stopped_) take(followed_to_jump(*one, ends));
   return best;
 }
 

@@ -81,6 +81,12 @@ class DesignSearch {
     std::vector<Vector> least{};   ///< of those along the boundary
   };
   std::optional<FoundDesign> followed(const Candidate& from, KnownEnds& known);
+  /// Designs that searches by derivatives do not come to: starts that meet the requirements,
+  /// and bounds of one parameter alone, drawn back roughly.
+  std::vector<Candidate> met_starts();
+  JumpProblem jump_problem(const std::vector<Way>& ways);
+  FoundDesign along_jump(FoundDesign design, const JumpEnd& end);
+  std::optional<FoundDesign> followed_to_jump(const Candidate& from, KnownEnds& known);
   /// What decides an answer: see design_conditions.cpp.
   struct Conditions;
   Conditions balance(const FoundDesign& design, const Assessment& at) const;
