@@ -31,10 +31,33 @@ constexpr int most_kinks = 20;
 /// Of one curve: those of tables with many points, to and fro.
 constexpr int most_bends = 1000;
 
-/// Of the path's start at this value of the parameter; empty where there is none, and where nothing switches.
-Piece piece_at(const CaseCurves& curves, double mu) {
+/// Of the path's start at one value of the parameter.
+struct StartSides {
+  Piece piece{};              ///< empty where there is no start, and where nothing switches
+  std::vector<bool> rests{};  ///< switches that are zero there: rounding has their side
+};
+
+StartSides sides_at(const CaseCurves& curves, double mu) {
+  constexpr double zero = continuation::TraceOptions{}.simultaneous;
   const Member* member = curves.at(mu);
-  return member == nullptr ? Piece{} : member->first.piece;
+  if (member == nullptr) return {};
+  StartSides sides{member->first.piece, std::vector<bool>(member->first.piece.size(), false)};
+  const PathProblem& problem = *member->problem;
+  Vector g;
+  if (!problem.switches(problem.reduce(member->first.z), member->setup.lambda_start, g))
+    return sides;
+  for (std::size_t j = 0; j < sides.rests.size(); ++j)
+    sides.rests[j] = std::abs(g[static_cast<Index>(j)]) <= zero;
+  return sides;
+}
+
+/// The first switch on different sides of the two starts, unless it is zero at both; nothing if there is none, or no
+/// start.
+std::optional<Index> switched_between(const StartSides& a, const StartSides& b) {
+  if (a.piece.size() != b.piece.size()) return std::nullopt;
+  for (std::size_t j = 0; j < a.piece.size(); ++j)
+    if (a.piece[j] != b.piece[j] && !(a.rests[j] && b.rests[j])) return static_cast<Index>(j);
+  return std::nullopt;
 }
 
 /// As far along the straight line on which the curve arrives, or came.
@@ -265,8 +288,7 @@ class Follower {
   }
 
   bool differ(double a, double b) const {
-    const Piece here = piece_at(curves_, a), there = piece_at(curves_, b);
-    return !here.empty() && here.size() == there.size() && here != there;
+    return switched_between(sides_at(curves_, a), sides_at(curves_, b)).has_value();
   }
 
   /// A start so near to a kink that differences reach across it, whichever way it leaves: it is the stretch up to the
@@ -343,23 +365,22 @@ class Follower {
 
 std::optional<std::pair<double, std::string>> switching_start(const CaseCurves& curves, double mu,
                                                               double beyond) {
-  const Piece here = piece_at(curves, mu);
-  Piece there = piece_at(curves, beyond);
-  if (here.empty() || there.size() != here.size() || there == here) return std::nullopt;
+  const StartSides here = sides_at(curves, mu);
+  auto differs = switched_between(here, sides_at(curves, beyond));
+  if (!differs) return std::nullopt;
   constexpr int halvings = 40;
   for (int i = 0; i < halvings; ++i) {
     const double middle = mu + 0.5 * (beyond - mu);
-    Piece piece = piece_at(curves, middle);
-    if (piece.size() != here.size()) return std::nullopt;
-    if (piece == here) {
-      mu = middle;
-    } else {
+    const StartSides sides = sides_at(curves, middle);
+    if (sides.piece.size() != here.piece.size()) return std::nullopt;
+    if (const auto one = switched_between(here, sides)) {
       beyond = middle;
-      there = std::move(piece);
+      differs = one;
+    } else {
+      mu = middle;
     }
   }
-  const auto differs = std::mismatch(here.begin(), here.end(), there.begin()).first - here.begin();
-  return std::pair{beyond, curves.base().problem->switch_name(differs)};
+  return std::pair{beyond, curves.base().problem->switch_name(*differs)};
 }
 
 CriticalCurve follow_over_kinks(const CaseCurves& curves, const CriticalStart& start, bool growing,

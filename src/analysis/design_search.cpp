@@ -367,6 +367,7 @@ FoundDesign DesignSearch::best_of(const std::vector<Candidate>& list) {
   };
   for (const Candidate* one : promising(list))
     if (!stopped_) take(followed(*one, ends));
+  if (best.status == DesignStatus::met && best.is_least) return best;
   const std::vector<Candidate> met = met_starts();
   for (const Candidate* one : promising(met))
     if (!stopped_) take(followed_to_jump(*one, ends));
