@@ -148,7 +148,7 @@ std::optional<std::string> singular_chain(const Entry& before, const Entry& entr
 void refuse_contradictions(const std::vector<Entry>& entries, const Evaluator& evaluator,
                            Branch& branch) {
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (evaluator.closure_gap(entries[i].point) <= allowed_closure_gap) continue;
+    if (!closures_contradict(evaluator.problem(), entries[i].point)) continue;
     const std::string row = std::to_string(i);
     branch.forward = {"closures that were redundant at the start contradict each other at row " +
                           row + ": the chains do not fit there; " + branch.forward.reason,

@@ -261,6 +261,16 @@ bool closures_always_depend(const PathProblem& problem, const continuation::Curv
   return true;
 }
 
+bool closures_contradict(const PathProblem& problem, const continuation::CurvePoint& point) {
+  constexpr double allowed_gap = 1e-9;  // of redundant closures [-]
+  if (problem.layout().redundant == 0) return false;
+  Vector r;
+  statics::Workspace work;
+  equilibrium_residual(problem.turned(point.x, point.lambda), point.piece,
+                       problem.local(point.x, point.lambda), problem.inputs(point.lambda), work, r);
+  return work.undetermined.lpNorm<Eigen::Infinity>() > allowed_gap;
+}
+
 std::optional<std::string> kinematic_singularity(const PathProblem& problem,
                                                  const continuation::CurvePoint& point) {
   constexpr double drop = 1e-3;

@@ -27,6 +27,10 @@ Vector any_direction(Index size);
 /// mechanism goes: they ask more of the joints than these can give.
 bool closures_always_depend(const PathProblem& problem, const continuation::CurvePoint& point);
 
+/// Do closures that are redundant contradict each other at a solution of the equations? These leave open what is said
+/// twice: the chains have a gap there, and it is no state of the mechanism.
+bool closures_contradict(const PathProblem& problem, const continuation::CurvePoint& point);
+
 /// The closures as equations for everything that moves on the path, lambda included, have a lower rank here than on
 /// both sides along the tangent (without one: beside it): a kinematic singularity. A part of the wrenches is then not
 /// determined by statics, and equilibria with all its values form a line that no branch follows.

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "analysis/random_fraction.hpp"
+#include "closure_rank.hpp"
 #include "springfold/continuation/search.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/model/rotation_vector.hpp"
@@ -100,6 +101,10 @@ class Searcher {
     for (Index i = 0; i < found.z.size(); ++i)
       if (periods_[i] > 0)
         found.z[i] -= periods_[i] * std::round((found.z[i] - box_.middle[i]) / periods_[i]);
+    if (closures_contradict(problem_, {.x = found.z, .piece = found.piece})) {
+      left_.push_back(std::move(found.z));
+      return;
+    }
     const Vector raw = found.z;
     if (shorten_rotations(found.z)) {
       left_.push_back(raw);
@@ -240,7 +245,8 @@ class Searcher {
   Box box_;
   InRange in_range_;
   Parts parts_;
-  std::vector<Vector> left_{};  ///< solutions with long rotation vectors, as they were found
+  std::vector<Vector>
+      left_{};  ///< solutions with long rotation vectors, as they were found, and torn ones
   Vector periods_;
   EquilibriumSearch result_{};
 };

@@ -338,16 +338,6 @@ Index Evaluator::zero_modes(const continuation::CurvePoint& point) const {
   return at ? statics::zero_modes(problem_.system(point.lambda), at->A) : 0;
 }
 
-double Evaluator::closure_gap(const continuation::CurvePoint& point) const {
-  if (problem_.layout().redundant == 0) return 0;
-  statics::Workspace work;
-  Vector r;
-  equilibrium_residual(problem_.turned(point.x, point.lambda), point.piece,
-                       problem_.local(point.x, point.lambda), problem_.inputs(point.lambda), work,
-                       r);
-  return work.undetermined.lpNorm<Eigen::Infinity>();
-}
-
 std::vector<Index> Evaluator::closure_ranks(const continuation::CurvePoint& point) const {
   const Assembled* at = assemble(point);
   if (!at) return {};

@@ -124,8 +124,8 @@ class Grower {
     std::vector<int> numbers;
     for (std::size_t i = 0; i < found.solutions.size(); ++i) {
       const DiagramStart start{found.solutions[i], scaled, found.pieces[i]};
-      if (lies_on_a_branch(start)) continue;
       const CurvePoint point{.x = start.x, .lambda = scaled, .piece = start.piece};
+      if (closures_contradict(t_.problem, point) || lies_on_a_branch(start)) continue;
       if (limit_passed(t_.study, t_.evaluator, t_.quantities, point)) {
         ++report.out_of_range;
         continue;

@@ -85,9 +85,6 @@ Unit lambda_unit_of(const Study& study, const statics::System& system);
 /// or, if that is zero, its rotation; the rest set to zero.
 Vector measured_direction(const Study& study, model::TaskSpace space);
 
-/// Gap in redundant closures above which a state is no equilibrium of the mechanism [-].
-inline constexpr double allowed_closure_gap = 1e-9;
-
 /// Evaluates quantities at points of one path. Dimensionless inside, physical values out.
 class Evaluator {
  public:
@@ -137,8 +134,6 @@ class Evaluator {
       const continuation::CurvePoint& point) const;
   /// Motions without stiffness.
   Index zero_modes(const continuation::CurvePoint& point) const;
-  /// How far the closures that were taken as redundant are violated [-].
-  double closure_gap(const continuation::CurvePoint& point) const;
   /// Rank of the closure of every chain in its own coordinates; empty where it is not defined.
   std::vector<Index> closure_ranks(const continuation::CurvePoint& point) const;
   /// K_ci of all chains, paper eq. (12); empty matrices where undefined.

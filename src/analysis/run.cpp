@@ -6,6 +6,7 @@
 
 #include "branches.hpp"
 #include "case_curves.hpp"
+#include "closure_rank.hpp"
 #include "cpu_time.hpp"
 #include "equilibria.hpp"
 #include "held_twice.hpp"
@@ -42,7 +43,7 @@ void report_tangent(const Evaluator& evaluator, const CurvePoint& start, const V
 /// The start violates closures that were taken as redundant.
 void refuse_contradiction(const Evaluator& evaluator, const CurvePoint& start,
                           StartReport& report) {
-  if (evaluator.closure_gap(start) <= allowed_closure_gap) return;
+  if (!closures_contradict(evaluator.problem(), start)) return;
   report.found = false;
   report.advice = "give one of the chains an elasticity";
   report.message =
