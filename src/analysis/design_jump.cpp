@@ -14,6 +14,9 @@ constexpr double by_far = 10;
 /// Designs next to a jump cannot always be judged, where points merge on them: it is told across a gap no wider than
 /// this.
 constexpr double widest_gap = 1e-6;
+/// Whether anything jumps is seen early from two gaps, this one and its square: over as much a root falls by 2^-5, what
+/// jumps does not. Between both:
+constexpr double wide_gap = 0x1p-10, jumps_from = 0.2;
 /// Neighbours of a place, as parts of the change: first, and last, where rates of the third order add a millionth to
 /// the normal.
 constexpr double first_beside = 0x1p-6, last_beside = 0x1p-10;
@@ -277,13 +280,20 @@ bool holds(const std::optional<Assessment>& at, const std::vector<std::size_t>& 
   return at && most_missed(*at, only) <= design_tolerance;
 }
 
-JumpEnd drawn_back_to(const JumpProblem& problem, const Vector& changes, const Vector& target) {
+JumpEnd drawn_back_to(const JumpProblem& problem, const Vector& changes, const Vector& target,
+                      bool only_jumps) {
   const Vector way = target - changes;
-  double good = 0, bad = 1;
+  double good = 0, bad = 1, missed_beyond = HUGE_VAL;
+  std::optional<double> missed_widely;
   while (bad - good > closely && !problem.stopped()) {
     const double middle = good + 0.5 * (bad - good);
     if (middle <= good || middle >= bad) break;
-    (holds(problem.judge(changes + middle * way, {})) ? good : bad) = middle;
+    const auto at = problem.judge(changes + middle * way, {});
+    (holds(at) ? good : bad) = middle;
+    if (bad == middle) missed_beyond = at ? most_missed(*at) : HUGE_VAL;
+    if (!only_jumps) continue;
+    if (!missed_widely && bad - good <= wide_gap) missed_widely = missed_beyond;
+    if (bad - good <= wide_gap * wide_gap && missed_beyond < *missed_widely * jumps_from) return {};
   }
   JumpEnd end{.changes = changes + good * way, .inwards = -way.normalized()};
   auto missed = problem.judge(changes + bad * way, {});
@@ -314,7 +324,7 @@ JumpEnd drawn_back(const JumpProblem& problem, const Vector& changes) {
     if (holds(problem.judge(target, {})))
       end.changes = target;
     else
-      end = drawn_back_to(problem, end.changes, target);
+      end = drawn_back_to(problem, end.changes, target, false);
     if (!((before - end.changes).norm() > stationary * length)) break;
   }
   return end;

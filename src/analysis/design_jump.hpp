@@ -46,7 +46,9 @@ struct JumpEnd {
 };
 
 /// Back on the straight way from a place that meets the requirements towards another one that does not.
-JumpEnd drawn_back_to(const JumpProblem& problem, const Vector& changes, const Vector& target);
+/// @param only_jumps  where nothing jumps no place is looked for
+JumpEnd drawn_back_to(const JumpProblem& problem, const Vector& changes, const Vector& target,
+                      bool only_jumps);
 
 /// Where requirements jump no derivative leads to the place: it is bracketed on the straight way to where the change
 /// were least if there were no jump, which is the case itself unless other requirements keep from it.

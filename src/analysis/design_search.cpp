@@ -8,6 +8,8 @@ namespace {
 
 /// A rough search meets the requirements this well.
 constexpr double roughly_met = 1e-3;
+/// Distances from the case by which places are ordered are known to this part.
+constexpr double roughly_placed = 0x1p-4;
 /// The end of a rough search is followed if fewer other ends before it are better.
 constexpr int most_followed = 3;
 /// Where none of the starts leads to a design so many times as many are tried before it is said that none does.
@@ -25,7 +27,7 @@ double halton(int index, int base) {
   return value;
 }
 
-/// The first primes, and after them odd numbers: parameters beyond the tenth are seldom.
+/// The first primes, then odd numbers: parameters beyond the tenth are seldom.
 int base_of(Index i) {
   constexpr int primes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29};
   return i < 10 ? primes[i] : static_cast<int>(31 + 2 * (i - 10));
@@ -239,8 +241,7 @@ bool DesignSearch::is_same(const Candidate& a, const Candidate& b) const {
   return a.ways == b.ways && are_alike(a.changes, b.changes);
 }
 
-/// Those that few before them are better than. What comes later changes nothing for the ones before: more starts never
-/// lead to a worse answer.
+/// Those that few before them are better than: what comes later, from more starts, never leads to a worse answer.
 std::vector<const DesignSearch::Candidate*> DesignSearch::promising(
     const std::vector<Candidate>& list) const {
   std::vector<const Candidate*> apart, chosen;
@@ -317,10 +318,12 @@ FoundDesign DesignSearch::along_jump(FoundDesign design, const JumpEnd& end) {
   return design;
 }
 
-/// A search by derivatives steps over a jump, to the smooth boundary of other designs, or none.
+/// Of paths that are to climb all the way, whose least slope jumps where branches cross: a search by derivatives steps
+/// over that, to the smooth boundary of other designs, or none.
 std::vector<DesignSearch::Candidate> DesignSearch::met_starts() {
   std::vector<Candidate> list;
   const std::vector<Way> ways = first_ways();
+  if (std::find(ways.begin(), ways.end(), Way::climbing) == ways.end()) return list;
   std::vector<Vector> places;
   for (Index i = 0; i < low_.size(); ++i)
     for (const double bound : {low_[i], high_[i]})
@@ -329,7 +332,7 @@ std::vector<DesignSearch::Candidate> DesignSearch::met_starts() {
   for (const Vector& from : places) {
     if (stopped_ || !holds(nearest(from, ways, {}))) continue;
     double good = 1, bad = 0;
-    while (good - bad > roughly_met && !stopped_) {
+    while (good - bad > roughly_placed && !stopped_) {
       const double middle = 0.5 * (good + bad);
       (holds(nearest(middle * from, ways, {})) ? good : bad) = middle;
     }
@@ -338,11 +341,10 @@ std::vector<DesignSearch::Candidate> DesignSearch::met_starts() {
   return list;
 }
 
-/// The place of the jump on the straight way to the case, and from there along the boundary.
-/// @returns nothing where no requirement jumps there, or if that leads to a known end
+/// From the jump on the straight way to the case; nothing where there is none, or if that leads to a known end.
 std::optional<FoundDesign> DesignSearch::followed_to_jump(const Candidate& from, KnownEnds& known) {
   const JumpProblem problem = jump_problem(from.ways);
-  JumpEnd end = drawn_back_to(problem, from.changes, Vector::Zero(low_.size()));
+  JumpEnd end = drawn_back_to(problem, from.changes, Vector::Zero(low_.size()), true);
   if (!end.jumps || end.jumping.empty()) return std::nullopt;
   end = least_on_boundary(problem, std::move(end), known.least);
   if (end.is_known || !holds(nearest(end.changes, from.ways, {}))) return std::nullopt;
@@ -365,10 +367,9 @@ FoundDesign DesignSearch::best_of(const std::vector<Candidate>& list) {
                      {best.ways, best.changes, best.violation}));
     if (better) best = *found;
   };
-  for (const Candidate* one : promising(list))
+  for (const auto* one : promising(list))
     if (!stopped_) take(followed(*one, ends));
-  if (best.status == DesignStatus::met && best.is_least) return best;
-  const std::vector<Candidate> met = met_starts();
+  const auto met = met_starts();
   for (const Candidate* one : promising(met))
     if (!stopped_) take(followed_to_jump(*one, ends));
   return best;
