@@ -9,6 +9,7 @@
 #include "closure_rank.hpp"
 #include "springfold/continuation/search.hpp"
 #include "springfold/core/decompositions.hpp"
+#include "springfold/core/row_qr.hpp"
 #include "springfold/model/rotation_vector.hpp"
 
 namespace springfold::analysis {
@@ -224,7 +225,9 @@ class Searcher {
     Matrix A;
     Vector r;
     for (int k = 0; k < rounds && linearised(z, A, r); ++k) {
-      const Matrix Z = kernel_of(A(parts_.wrenches, parts_.moving));
+      const Matrix closing = A(parts_.wrenches, parts_.moving);
+      const RowQr rows(closing, problem_.layout().redundant);
+      const Matrix Z = rows.independent() ? rows.kernel() : kernel_of(closing);
       if (Z.cols() == 0) break;
       const Matrix H = A(parts_.moving, parts_.moving);
       const SymmetricEigen modes = symmetric_eigen(Z.transpose() * H * Z);

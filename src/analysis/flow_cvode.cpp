@@ -43,7 +43,8 @@ struct Integration {
 /// Directions along which the closures stay as they are.
 class Kept {
  public:
-  explicit Kept(Matrix closing) : closing_{std::move(closing)}, rows_{closing_} {}
+  Kept(Matrix closing, Index redundant)
+      : closing_{std::move(closing)}, rows_{closing_, redundant} {}
   /// The nearest of them.
   Vector operator()(const Vector& v) const {
     const Vector gap = closing_ * v;
@@ -63,7 +64,7 @@ std::optional<Kept> put_on_closures(Integration& data, Vector& y) {
   if (!landscape.close(data.x)) return std::nullopt;
   const auto closing = closures_at(landscape, data.x, data.piece);
   if (!closing) return std::nullopt;
-  Kept kept(*closing);
+  Kept kept(*closing, landscape.terrain().redundant);
   const Index n = data.moving();
   y.head(n) = data.x(landscape.moving());
   if (data.has_masses()) y.segment(n, n) = kept(data.speeds(y));

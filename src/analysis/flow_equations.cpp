@@ -47,13 +47,14 @@ Matrix damping_of(const Motion& motion) {
   return motion.damping_factor * (D.size() > 0 ? D : Matrix(Matrix::Identity(n, n)));
 }
 
-/// Solves W a + J^T nu = p, J a = q for symmetric W, positive on the kernel of J.
+/// Solves W a + J^T nu = p, J a = q for symmetric W, positive on the kernel of J, of whose rows so many depend on the
+/// others.
 struct Balanced {
   Vector a{}, nu{};
 };
-std::optional<Balanced> balance(const Matrix& W, const Matrix& J, const Vector& p,
+std::optional<Balanced> balance(const Matrix& W, const Matrix& J, Index redundant, const Vector& p,
                                 const Vector& q) {
-  const RowQr rows(J);
+  const RowQr rows(J, redundant);
   const bool plain = rows.independent();
   const Matrix Z = plain ? rows.kernel() : kernel_of(J);
   Balanced result{Vector::Zero(W.rows()), Vector::Zero(J.rows())};
@@ -142,7 +143,8 @@ std::optional<FlowRate> overdamped_rate(const Motion& motion, const Vector& x, c
   const auto at = first_order(motion.landscape, x, piece);
   if (!at) return std::nullopt;
   const Matrix D = damping_of(motion);
-  const auto solved = balance(D, at->closing, -at->gradient, -fading * at->gap);
+  const auto solved = balance(D, at->closing, motion.landscape.terrain().redundant, -at->gradient,
+                              -fading * at->gap);
   if (!solved) return std::nullopt;
   return FlowRate{solved->a, solved->nu, solved->a.dot(D * solved->a)};
 }
@@ -207,7 +209,7 @@ std::optional<FlowRate> inertial_rate(const Motion& motion, const Vector& x, con
       p -= masses[i].mass * (masses[i].jacobian.transpose() * curved[i]);
   }
   const Vector q = -bend - 2 * fading * (at->closing * v) - fading * fading * at->gap;
-  const auto solved = balance(M, at->closing, p, q);
+  const auto solved = balance(M, at->closing, landscape.terrain().redundant, p, q);
   if (!solved) return std::nullopt;
   return FlowRate{solved->a, solved->nu, v.dot(D * v)};
 }

@@ -70,6 +70,7 @@ Frozen::Frozen(const PathProblem& traced, const Scales& scales, double lambda,
 Terrain Frozen::terrain(const Scales& scales, const std::vector<JointDamping>& damping) const {
   const statics::System& system = problem_.layout();
   Terrain terrain{.problem = problem_, .lambda = 0};
+  terrain.redundant = system.redundant;
   const Index n = problem_.size();
   Vector factors = Vector::Zero(n);  // of the moving unknowns among all; joints alone are damped
   for (Index i = 0; i < n; ++i) {

@@ -112,7 +112,7 @@ bool Landscape::close(Vector& x) const {
     if (!again) {
       if (!first && !terrain_.problem.derivatives(x, terrain_.lambda, *piece, A, b)) return false;
       J = block_of(A, multipliers_, moving_);
-      rows.compute(J);
+      rows.compute(J, terrain_.redundant);
       known = rows.independent();
     }
     Vector step = -(known ? rows.least_norm(gap) : least_squares(J, gap));
@@ -141,7 +141,7 @@ std::optional<Ground> Landscape::ground_on(const Vector& x, const Piece& piece) 
   if (!evaluate()) return std::nullopt;
   at.gradient = entries_of(r, moving_);
   at.closing = block_of(A, multipliers_, moving_);
-  const RowQr rows(at.closing);
+  const RowQr rows(at.closing, terrain_.redundant);
   at.motions = rows.independent() ? rows.kernel() : kernel_of(at.closing);
   at.slope = at.motions.transpose() * at.gradient;
   if (!multipliers_.empty()) {

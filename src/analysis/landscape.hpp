@@ -21,6 +21,8 @@ struct Terrain {
   std::function<bool(const Vector&, const Vector&)> same{};  ///< the same state? Empty: by entries,
                                                              ///< modulo periods
   Matrix damping{};  ///< of the moving unknowns, positive on all motions; empty: one each
+  /// So many closures depend on the others wherever all hold. Beside there, as rounding has it, they hardly do not.
+  Index redundant = 0;
 };
 
 /// A state of the landscape with everything of first and second order.
