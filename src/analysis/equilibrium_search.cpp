@@ -195,6 +195,8 @@ class Searcher {
     constexpr int rounds = 12;
     Matrix A;
     Vector r;
+    z(parts_.wrenches)
+        .setZero();  // where closures depend on each other their residuals are gaps then
     for (int k = 0; k < rounds && linearised(z, A, r); ++k) {
       const Matrix J = A(parts_.wrenches, parts_.coordinates);
       const Vector gap = r(parts_.wrenches);

@@ -43,8 +43,8 @@ struct Integration {
 /// Directions along which the closures stay as they are.
 class Kept {
  public:
-  Kept(Matrix closing, Index redundant)
-      : closing_{std::move(closing)}, rows_{closing_, redundant} {}
+  Kept(Matrix closing, Index dependent)
+      : closing_{std::move(closing)}, rows_{closing_, dependent} {}
   /// The nearest of them.
   Vector operator()(const Vector& v) const {
     const Vector gap = closing_ * v;

@@ -85,8 +85,18 @@ std::vector<Piece> Landscape::pieces_beside(const Vector& x) const {
   return pieces;
 }
 
+/// Where closures depend on each other their residuals are gaps only without multipliers.
 bool Landscape::close(Vector& x) const {
   if (multipliers_.empty()) return true;
+  if (terrain_.redundant == 0) return close_gaps(x);
+  const Vector multipliers = entries_of(x, multipliers_);
+  x(multipliers_).setZero();
+  const bool is_closed = close_gaps(x);
+  x(multipliers_) = multipliers;
+  return is_closed;
+}
+
+bool Landscape::close_gaps(Vector& x) const {
   constexpr int rounds = 25;
   constexpr double longest = 0.5;
   const auto piece = piece_at(x);

@@ -67,6 +67,8 @@ class Landscape {
   Matrix damping(const Ground& at) const;
 
  private:
+  bool close_gaps(Vector& x) const;
+
   Terrain terrain_;
   std::vector<Index> moving_{}, multipliers_{};
   Vector periods_{};
