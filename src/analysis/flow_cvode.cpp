@@ -40,11 +40,10 @@ struct Integration {
   }
 };
 
-/// Directions along which the closures stay as they are.
+/// Directions along which the closures stay as they are, of which `less` depend on the others.
 class Kept {
  public:
-  Kept(Matrix closing, Index dependent)
-      : closing_{std::move(closing)}, rows_{closing_, dependent} {}
+  Kept(Matrix closing, Index less) : closing_{std::move(closing)}, rows_{closing_, less} {}
   /// The nearest of them.
   Vector operator()(const Vector& v) const {
     const Vector gap = closing_ * v;

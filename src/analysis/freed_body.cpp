@@ -20,19 +20,6 @@ PathRule freed_rule(PathRule rule) {
   return rule;
 }
 
-/// The last problem, with what it is made from.
-struct FreedMember {
-  double mu = 0;
-  const PathProblem* of = nullptr;
-  std::unique_ptr<PathProblem> problem{};
-
-  /// Frames and stages are copies of what the laws of springs may have changed since.
-  bool is_of(double value, const PathProblem* driven) const {
-    return problem && mu == value && of == driven && problem->free_rotations().empty() &&
-           !problem->structured();
-  }
-};
-
 }  // namespace
 
 continuation::Freed freed_of(const CaseCurves& curves) {
@@ -45,17 +32,16 @@ continuation::Freed freed_of(const CaseCurves& curves) {
   const auto& rotations = driven.free_rotations();
   freed.place = t + std::count_if(rotations.begin(), rotations.end(),
                                   [t](const auto& rotation) { return rotation.v < t; });
-  freed.at = [&curves, kept = std::make_shared<FreedMember>()](
+  // Made anew each time, little beside what is asked of it: nothing tells whether the system is still the same.
+  freed.at = [&curves, kept = std::make_shared<std::unique_ptr<PathProblem>>()](
                  double mu) -> std::optional<continuation::ProblemView> {
     const auto followed = curves.followed_at(mu);
     if (!followed) return std::nullopt;
     const PathProblem& own = *followed->problem;
-    if (!kept->is_of(mu, &own)) {
-      // Laws of the system are those of the driven problem, which keeps it.
-      const std::shared_ptr<const statics::System> system(std::shared_ptr<void>{}, &own.layout());
-      *kept = {mu, &own, std::make_unique<PathProblem>(system, freed_rule(own.rule()))};
-    }
-    return continuation::ProblemView(*kept->problem);
+    // Laws of the system are those of the driven problem, which keeps it.
+    const std::shared_ptr<const statics::System> system(std::shared_ptr<void>{}, &own.layout());
+    *kept = std::make_unique<PathProblem>(system, freed_rule(own.rule()));
+    return continuation::ProblemView(**kept);
   };
   const auto at_base = freed.at(curves.base().mu);
   const bool is_longer_by_one = at_base && at_base->size() == driven.size() + 1;
