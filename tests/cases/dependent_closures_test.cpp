@@ -1,14 +1,15 @@
 // Loops some of whose closures depend on the others wherever all hold, and only there: states in which the chains have a
 // gap are none, and jumps are followed.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "case_runs.hpp"
+#include "springfold/analysis/snap.hpp"
 
 namespace springfold::io {
 namespace {
