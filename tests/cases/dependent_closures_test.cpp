@@ -1,5 +1,5 @@
-// Loops some of whose closures depend on the others wherever all hold, and only there: states in which the chains have a
-// gap are none, and jumps are followed.
+// Loops some of whose closures depend on the others wherever all hold, and only there: states in which the chains have
+// a gap are none, and jumps are followed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -84,7 +84,7 @@ until = { lambda = [-2, 2], A.t1 = [0.6, 2.8] }
 )toml"));
   const StudyResult& result = ran.of("snap");
   EXPECT_TRUE(result.doubts.empty());
-  ASSERT_TRUE(result.snap.has_value());
+  ASSERT_TRUE(result.snap != nullptr);
   ASSERT_EQ(result.snap->jumps.size(), 2u);
   for (const analysis::Jump& jump : result.snap->jumps) {
     EXPECT_EQ(jump.verdict, analysis::SnapVerdict::unambiguous);
