@@ -119,5 +119,52 @@ TEST(StartOnAThreshold, OfTwoSpringsAtOnceHasOneSwitching) {
   EXPECT_NEAR(value(result, row + 1, "stiffness"), 3.0 / 4, 1e-12);
 }
 
+/// A strut that leans against its hinge, which carries to one side alone and stands on that threshold without a load,
+/// held by a guy.
+std::string leaning_strut(const std::string& control, double load_from) {
+  return "[parameters]\npsi = " + number(load_from) + R"toml(
+t0 = 0.1756
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = ["sin(t0)", "cos(t0)"]
+[[chain]]
+name = "strut"
+elements = [
+  { joint = "revolute", axis = "-z", name = "hinge", role = "preloaded", initial = "t0", spring = { law = "one_sided", stiffness = 1.1708, from = "t0" } },
+  { joint = "prismatic", axis = "y", name = "along", role = "virtual", stiffness = 25.1978 },
+  { rigid = [0, 1] },
+]
+[[spring]]
+name = "guy"
+from_at = [-1.0491, 0]
+to = "tip"
+stiffness = 0.8022
+free = "sqrt((sin(t0) + 1.0491)^2 + cos(t0)^2)"
+[[study]]
+name = "margin"
+kind = "critical_curve"
+direction = ["sin(psi)", "-cos(psi)"]
+until = { strut.along = [-0.98, 3], strut.hinge = [-3.1, 3.1], lambda = [-0.6, 6] }
+critical_curve = { of = "LP1", parameter = "psi", range = ["-30*deg", "40*deg"] }
+control = ")toml" +
+         control + "\"\n";
+}
+
+/// Rounding has the side of the hinge at the start, another one for every direction of the load.
+TEST(CurvesFromThresholds, HaveTheSameCuspFromEveryStartAndUnderTheDisplacement) {
+  std::vector<double> cusps;
+  for (const char* control : {"load", "mixed"})
+    for (const double from : {-0.185, -0.1815, -0.181}) {
+      const auto margin = run(leaning_strut(control, from)).of("margin");
+      for (const analysis::Branch& piece : margin.branches)
+        for (const analysis::Event& event : piece.events)
+          if (event.kind == analysis::EventKind::cusp)
+            cusps.push_back(value(margin, piece, event.row, "psi"));
+    }
+  ASSERT_EQ(cusps.size(), 6u);
+  for (const double psi : cusps) EXPECT_NEAR(psi, cusps.front(), 1e-9);
+}
+
 }  // namespace
 }  // namespace springfold::io
