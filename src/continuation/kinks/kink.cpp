@@ -4,7 +4,9 @@
 #include <cassert>
 #include <cmath>
 
+#include "continuation/kinks/kink_passage.hpp"
 #include "continuation/locating/bordered_test.hpp"
+#include "continuation/locating/exits.hpp"
 #include "continuation/locating/reduced_equation.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/points/coincide.hpp"
@@ -179,6 +181,18 @@ bool is_surely_regular(const Walker& walker, const CurvePoint& at, double full_r
          !is_singular(extended_matrix(linear, walker.weights, at.tangent), safely * full_rank);
 }
 
+/// Is it known that a start lies off all of these surfaces, which are too near to be told from it, in a piece in which
+/// curves cross there? What leaves in that piece, as along a dead band, is not seen.
+bool lies_between(const Walker& walker, const CurvePoint& start, const std::vector<Index>& active) {
+  Vector g;
+  if (active.empty() || !walker.problem.switches(start.x, start.lambda, g)) return false;
+  const double rounding = exact_model * scale_of(start);
+  const auto is_clear = [&](Index j) {
+    return start.piece[static_cast<std::size_t>(j)] * g[j] > rounding;
+  };
+  return std::ranges::all_of(active, is_clear) && corank_of(walker, start, located_rank) > 0;
+}
+
 }  // namespace
 
 bool differ_only(const Piece& a, const Piece& b, const std::vector<Index>& where) {
@@ -259,8 +273,13 @@ Rays rays_at(const Walker& walker, const Vector& x, double lambda, const Piece& 
   at.x = x;
   at.lambda = lambda;
   at.piece = piece;
-  return rays_around(walker, at, active, active.empty() ? residual_level : one_place, nullptr,
-                     true);
+  Rays rays =
+      rays_around(walker, at, active, active.empty() ? residual_level : one_place, nullptr, true);
+  if (rays.complete && lies_between(walker, at, active))
+    add_doubt("the start lies between the thresholds of " + names_of(walker.problem, active) +
+                  ", nearer than points are told apart",
+              rays);
+  return rays;
 }
 
 }  // namespace springfold::continuation
