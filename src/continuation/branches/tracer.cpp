@@ -45,9 +45,11 @@ void Tracer::add_start(const DiagramStart& start, int number) {
   const int corank = active.empty() ? corank_of(walker_, point, located_rank) : 0;
   Hit hit{.kind = HitKind::branch_point, .point = point};
   hit.multiplicity = std::max(corank, 1);
+  std::string missing;
   if (!active.empty()) {
     const Rays rays = rays_at(walker_, start.x, start.lambda, start.piece, active);
     if (is_one_curve(rays)) return add_ordinary_start(point, rays, number);
+    if (!rays.complete) missing = rays.why;
     hit.kind = HitKind::branching_kink;
     hit.switches = active;
   } else if (corank <= 0) {
@@ -59,6 +61,7 @@ void Tracer::add_start(const DiagramStart& start, int number) {
   if (junction_at(hit) >= 0) return;
   const int junction = add_junction(hit);
   at(junction).start = number;
+  if (!missing.empty() && at(junction).complete) note_missing(junction, missing);
   look_beside_start(junction);
   queue_ways(junction);
 }

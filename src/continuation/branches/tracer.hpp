@@ -49,6 +49,7 @@ class Tracer {
   int add_junction(const Hit& hit);
   void add_ordinary_start(const CurvePoint& point, const Rays& rays, int number);
   void queue_ways(int junction);
+  void note_missing(int number, std::string why);
   void note_untold(int number);
   void look_beside_start(int number);
   bool belongs_to_last(const Hit& hit);

@@ -41,13 +41,18 @@ void Tracer::queue_ways(int number) {
           {-1, number, static_cast<int>(w), junction.ways[w].start, junction.depth + 1});
 }
 
-/// Says that ways of a second mode may be missing at a junction.
-void Tracer::note_untold(int number) {
+/// Says why ways may be missing at a junction.
+void Tracer::note_missing(int number, std::string why) {
   Junction& junction = at(number);
   junction.complete = false;
-  junction.why = "another mode vanishes beside this point, nearer than their ways are told apart";
+  junction.why = std::move(why);
   doubt(DoubtKind::ways_missing, "branches may be missing: " + junction.why, junction.point,
         number);
+}
+
+void Tracer::note_untold(int number) {
+  note_missing(number,
+               "another mode vanishes beside this point, nearer than their ways are told apart");
 }
 
 /// A branch point at which the diagram begins may have another one beside it.
@@ -154,13 +159,9 @@ AtHit Tracer::at_hit(const Hit& hit, bool ends) {
   int number = junction_at(hit);
   const bool known = number >= 0;
   if (!known) number = add_junction(hit);
-  if (known && at(number).complete && !lies_on(walker_, at(number).point, hit.switches)) {
-    at(number).complete = false;
-    at(number).why = names_of(walker_.problem, hit.switches) +
-                     " acts beside this point, nearer than points are told apart";
-    doubt(DoubtKind::ways_missing, "branches may be missing: " + at(number).why, at(number).point,
-          number);
-  }
+  if (known && at(number).complete && !lies_on(walker_, at(number).point, hit.switches))
+    note_missing(number, names_of(walker_.problem, hit.switches) +
+                             " acts beside this point, nearer than points are told apart");
   const Met met = passage_of(hit, number, ends);
   const bool go_on = met.way_on < 0 || take_way(number, met.way_on);
   met_.push_back(met);
