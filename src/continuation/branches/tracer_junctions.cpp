@@ -6,8 +6,8 @@
 #include "continuation/branches/known_junctions.hpp"
 #include "continuation/branches/tracer.hpp"
 #include "continuation/kinks/kink.hpp"
-#include "continuation/kinks/kink_passage.hpp"
 #include "continuation/points/coincide.hpp"
+#include "continuation/points/words.hpp"
 #include "springfold/continuation/interrupted.hpp"
 #include "springfold/continuation/numerics.hpp"
 

@@ -8,6 +8,7 @@
 #include "continuation/locating/evidence.hpp"
 #include "continuation/locating/tested_step.hpp"
 #include "continuation/points/coincide.hpp"
+#include "continuation/points/words.hpp"
 #include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 

@@ -4,13 +4,13 @@
 #include <cassert>
 #include <cmath>
 
-#include "continuation/kinks/kink_passage.hpp"
 #include "continuation/locating/bordered_test.hpp"
 #include "continuation/locating/exits.hpp"
 #include "continuation/locating/reduced_equation.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
+#include "continuation/points/words.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/sampling.hpp"

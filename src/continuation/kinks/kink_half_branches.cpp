@@ -7,6 +7,7 @@
 #include "continuation/locating/reduced_equation.hpp"
 #include "continuation/locating/singular.hpp"
 #include "continuation/points/locate.hpp"
+#include "continuation/points/words.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/extended_matrix.hpp"

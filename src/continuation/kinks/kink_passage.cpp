@@ -9,6 +9,7 @@
 #include "continuation/locating/bordered_test.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
+#include "continuation/points/words.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/equilibration.hpp"
@@ -174,12 +175,6 @@ std::string why_it_ends(StopReason reason, const Rays& rays, const Hit& hit) {
 }
 
 }  // namespace
-
-std::string names_of(ProblemView problem, const std::vector<Index>& switches) {
-  std::string names;
-  for (const Index j : switches) names += (names.empty() ? "" : ", ") + problem.switch_name(j);
-  return names;
-}
 
 CurvePoint point_on_ray(const Walker& walker, const CurvePoint& at, const Ray& ray) {
   CurvePoint point = at;

@@ -2,7 +2,6 @@
 // to the engine.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "continuation/kinks/beside.hpp"
@@ -27,9 +26,6 @@ struct Progress {
 };
 
 enum class Outcome { go_on, shorten, stop };
-
-/// Names of switches for messages, with commas between them.
-std::string names_of(ProblemView problem, const std::vector<Index>& switches);
 
 /// The point `at` as the begin of a ray: its tangent, piece and number of negative eigenvalues.
 CurvePoint point_on_ray(const Walker& walker, const CurvePoint& at, const Ray& ray);

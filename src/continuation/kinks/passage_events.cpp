@@ -9,6 +9,7 @@
 #include "continuation/locating/singular.hpp"
 #include "continuation/points/coincide.hpp"
 #include "continuation/points/locate.hpp"
+#include "continuation/points/words.hpp"
 #include "continuation/points/workspace.hpp"
 #include "springfold/continuation/numerics.hpp"
 #include "springfold/core/inertia.hpp"
