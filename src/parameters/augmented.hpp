@@ -58,7 +58,7 @@ class Augmented {
   Index n() const { return n_; }
   const CriticalStart& start() const { return start_; }
   /// Where what is called lambda stands: of limit points of the force the coordinate that is free.
-  Index place_of_lambda() const { return has_force() ? start_.freed.place : n_; }
+  Index place_of_lambda() const { return has_force() ? start_.driven : n_; }
   const Family& family() const { return family_; }
   const NullVectors& borders() const { return borders_; }
   std::optional<BorderedPlace> place(const Vector& X, double mu) const;
@@ -70,8 +70,8 @@ class Augmented {
 
  private:
   bool is_bordered() const;
-  /// In the place of lambda stands a force, which does not enter the arc length: FreedFamily::start() says so.
-  bool has_force() const { return start_.freed.place >= 0 && !start_.freed.at; }
+  /// In the place of lambda stands a force, which does not enter the arc length.
+  bool has_force() const { return start_.driven >= 0; }
   /// All terms at one place; V, W and G of bordered kinds only. `last`: the last equation: trace of G, or the surface.
   struct Terms {
     BorderedPlace at{};

@@ -74,7 +74,8 @@ std::optional<CriticalStart> FreedFamily::start(const CriticalStart& own) const 
   start.x = freed_unknowns(of_, own.x, own.lambda);
   start.lambda = *p;
   start.value = {};
-  start.freed.at = {};
+  start.freed = {};
+  start.driven = of_.place;
   return start;
 }
 

@@ -57,8 +57,7 @@ class FreedFamily {
   const Family& family() const { return freed_; }
   /// The force at a state of the family; nothing outside of its domain.
   std::optional<double> force(const Vector& x, double lambda, double mu, const Piece& piece) const;
-  /// The limit point of the force, with the place of the coordinate alone in `freed`; nothing where the equations are
-  /// not defined.
+  /// The limit point of the force, `driven` being the coordinate; nothing where the equations are not defined.
   std::optional<CriticalStart> start(const CriticalStart& own) const;
   /// The point in the family's own unknowns.
   CriticalPoint own(const CriticalPoint& point) const;

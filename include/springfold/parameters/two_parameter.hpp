@@ -74,6 +74,9 @@ struct CriticalStart {
   /// Kind zero, where the function is the rate of the force along the curve of one mu: what is followed is the limit
   /// point of these equations instead. Kind branch_point: hilltops of the force are told too.
   Freed freed{};
+  /// Of equations with a coordinate free, lambda being the force along it: the place of the coordinate in x. What is
+  /// told of lambda is told of the coordinate, and the force is no part of the arc length. -1: of all others.
+  Index driven = -1;
 };
 
 /// A point of a critical curve. Rates are by its arc length, in the problem's metric.
