@@ -267,6 +267,31 @@ JumpEnd BoundarySearch::run(const std::vector<Vector>& known) {
   return end_;
 }
 
+/// Is what is missed behind a bracket no less behind a much narrower one, as where something jumps?
+bool may_jump(const Bracket& wide, const Bracket& narrow) {
+  return !(narrow.missed < wide.missed * jumps_from);
+}
+
+/// The place on the boundary, and what is missed just beyond.
+JumpEnd end_within(const JumpProblem& problem, const Bracket& wide) {
+  const Bracket at = narrowed(problem, wide, closely);
+  JumpEnd end{.changes = met_place(at), .inwards = -at.way.normalized()};
+  auto missed = problem.judge(at.from + at.bad * at.way, {});
+  double gap = std::max(at.bad - at.good, closely);
+  while (!missed && gap < widest_gap && !problem.stopped()) {
+    gap *= 4;
+    missed = problem.judge(at.from + std::min(1.0, at.good + gap) * at.way, {});
+  }
+  const double far = by_far * std::sqrt(gap);
+  end.jumps = !missed || missed->g.maxCoeff() > far;
+  for (Index i = 0; missed && i < missed->g.size(); ++i) {
+    const std::size_t of = missed->of[static_cast<std::size_t>(i)];
+    if (missed->g[i] > far && (end.jumping.empty() || !is_among(end.jumping, of)))
+      end.jumping.push_back(of);
+  }
+  return end;
+}
+
 }  // namespace
 
 double most_missed(const Assessment& at, const std::vector<std::size_t>& only) {
@@ -280,36 +305,28 @@ bool holds(const std::optional<Assessment>& at, const std::vector<std::size_t>& 
   return at && most_missed(*at, only) <= design_tolerance;
 }
 
-JumpEnd drawn_back_to(const JumpProblem& problem, const Vector& changes, const Vector& target,
-                      bool only_jumps) {
-  const Vector way = target - changes;
-  double good = 0, bad = 1, missed_beyond = HUGE_VAL;
-  std::optional<double> missed_widely;
-  while (bad - good > closely && !problem.stopped()) {
-    const double middle = good + 0.5 * (bad - good);
-    if (middle <= good || middle >= bad) break;
-    const auto at = problem.judge(changes + middle * way, {});
-    (holds(at) ? good : bad) = middle;
-    if (bad == middle) missed_beyond = at ? most_missed(*at) : HUGE_VAL;
-    if (!only_jumps) continue;
-    if (!missed_widely && bad - good <= wide_gap) missed_widely = missed_beyond;
-    if (bad - good <= wide_gap * wide_gap && missed_beyond < *missed_widely * jumps_from) return {};
+Bracket narrowed(const JumpProblem& problem, Bracket at, double width) {
+  while (at.bad - at.good > width && !problem.stopped()) {
+    const double middle = at.good + 0.5 * (at.bad - at.good);
+    if (middle <= at.good || middle >= at.bad) break;
+    const auto there = problem.judge(at.from + middle * at.way, {});
+    (holds(there) ? at.good : at.bad) = middle;
+    if (at.bad == middle) at.missed = there ? most_missed(*there) : HUGE_VAL;
   }
-  JumpEnd end{.changes = changes + good * way, .inwards = -way.normalized()};
-  auto missed = problem.judge(changes + bad * way, {});
-  double gap = std::max(bad - good, closely);
-  while (!missed && gap < widest_gap && !problem.stopped()) {
-    gap *= 4;
-    missed = problem.judge(changes + std::min(1.0, good + gap) * way, {});
-  }
-  const double far = by_far * std::sqrt(gap);
-  end.jumps = !missed || missed->g.maxCoeff() > far;
-  for (Index i = 0; missed && i < missed->g.size(); ++i) {
-    const std::size_t of = missed->of[static_cast<std::size_t>(i)];
-    if (missed->g[i] > far && (end.jumping.empty() || !is_among(end.jumping, of)))
-      end.jumping.push_back(of);
-  }
-  return end;
+  return at;
+}
+
+Bracket bracket(const JumpProblem& problem, const Vector& from, const Vector& to, double width) {
+  return narrowed(problem, {.from = from, .way = to - from}, width);
+}
+
+std::optional<JumpEnd> jump_between(const JumpProblem& problem, const Vector& from,
+                                    const Vector& to) {
+  const Bracket wide = bracket(problem, from, to, wide_gap),
+                narrow = narrowed(problem, wide, wide_gap * wide_gap);
+  if (!may_jump(wide, narrow)) return std::nullopt;
+  JumpEnd end = end_within(problem, narrow);
+  return end.jumps ? std::optional{std::move(end)} : std::nullopt;
 }
 
 JumpEnd drawn_back(const JumpProblem& problem, const Vector& changes) {
@@ -324,7 +341,7 @@ JumpEnd drawn_back(const JumpProblem& problem, const Vector& changes) {
     if (holds(problem.judge(target, {})))
       end.changes = target;
     else
-      end = drawn_back_to(problem, end.changes, target, false);
+      end = end_within(problem, {.from = end.changes, .way = target - end.changes});
     if (!((before - end.changes).norm() > stationary * length)) break;
   }
   return end;

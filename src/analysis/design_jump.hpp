@@ -1,6 +1,7 @@
 // The least change where a requirement jumps. Private to analysis.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -45,10 +46,24 @@ struct JumpEnd {
   bool is_known = false;  ///< the search came to a known end, and stopped
 };
 
-/// Back on the straight way from a place that meets the requirements towards another one that does not.
-/// @param only_jumps  where nothing jumps no place is looked for
-JumpEnd drawn_back_to(const JumpProblem& problem, const Vector& changes, const Vector& target,
-                      bool only_jumps);
+/// Where requirements begin to be missed on the straight way from + part * way: they hold at `good`, not at `bad`.
+struct Bracket {
+  Vector from{}, way{};
+  double good = 0, bad = 1;
+  double missed = HUGE_VAL;  ///< the largest inequality at `bad`; HUGE_VAL: not known
+};
+
+/// Bisects to this width, or to rounding, from a place that meets the requirements towards another one that does not.
+Bracket bracket(const JumpProblem& problem, const Vector& from, const Vector& to, double width);
+/// The same from a wider bracket.
+Bracket narrowed(const JumpProblem& problem, Bracket at, double width);
+/// Its place that meets the requirements.
+inline Vector met_place(const Bracket& at) { return at.from + at.good * at.way; }
+
+/// The end of the straight way to what does not meet the requirements, if something jumps there, or designs beyond it
+/// cannot be judged; nothing otherwise.
+std::optional<JumpEnd> jump_between(const JumpProblem& problem, const Vector& from,
+                                    const Vector& to);
 
 /// Where requirements jump no derivative leads to the place: it is bracketed on the straight way to where the change
 /// were least if there were no jump, which is the case itself unless other requirements keep from it.
