@@ -6,10 +6,10 @@
 #include <random>
 
 #include "analysis/random_fraction.hpp"
+#include "closings.hpp"
 #include "closure_rank.hpp"
 #include "springfold/continuation/search.hpp"
 #include "springfold/core/decompositions.hpp"
-#include "springfold/core/row_qr.hpp"
 #include "springfold/model/rotation_vector.hpp"
 
 namespace springfold::analysis {
@@ -227,9 +227,8 @@ class Searcher {
     Matrix A;
     Vector r;
     for (int k = 0; k < rounds && linearised(z, A, r); ++k) {
-      const Matrix closing = A(parts_.wrenches, parts_.moving);
-      const RowQr rows(closing, problem_.layout().redundant);
-      const Matrix Z = rows.independent() ? rows.kernel() : kernel_of(closing);
+      const Closings closings(A(parts_.wrenches, parts_.moving), problem_.layout().redundant);
+      const Matrix Z = closings.motions();
       if (Z.cols() == 0) break;
       const Matrix H = A(parts_.moving, parts_.moving);
       const SymmetricEigen modes = symmetric_eigen(Z.transpose() * H * Z);

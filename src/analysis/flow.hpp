@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "closings.hpp"
 #include "descent.hpp"
 
 namespace springfold::analysis {
@@ -94,8 +95,9 @@ std::optional<FlowRate> inertial_rate(const Motion& motion, const Vector& x, con
 std::optional<Matrix> inertial_jacobian(const Motion& motion, const Vector& x, const Vector& v,
                                         const Piece& piece, const FlowRate& at);
 
-/// Derivatives of the closures by the moving unknowns.
-std::optional<Matrix> closures_at(const Landscape& landscape, const Vector& x, const Piece& piece);
+/// Moves a state to the nearest one whose closures hold to rounding.
+/// @returns the closures there; nothing where there is no such state near
+std::optional<Closings> put_on_closures(const Landscape& landscape, Vector& x, const Piece& piece);
 
 /// By CVODE: backward differentiation formulas, the exact Jacobian, states put on the closures, roots where switches
 /// change sides and where a coordinate leaves all bounds.

@@ -12,8 +12,6 @@
 #include "flow.hpp"
 #include "lasting.hpp"
 #include "springfold/core/c_handles.hpp"
-#include "springfold/core/decompositions.hpp"
-#include "springfold/core/row_qr.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -40,34 +38,17 @@ struct Integration {
   }
 };
 
-/// Directions along which the closures stay as they are, of which `less` depend on the others.
-class Kept {
- public:
-  Kept(Matrix closing, Index less) : closing_{std::move(closing)}, rows_{closing_, less} {}
-  /// The nearest of them.
-  Vector operator()(const Vector& v) const {
-    const Vector gap = closing_ * v;
-    return v - (rows_.independent() ? rows_.least_norm(gap) : least_squares(closing_, gap));
-  }
-
- private:
-  Matrix closing_;
-  RowQr rows_;
-};
-
 /// A state of the integration moved to the nearest one whose closures hold to rounding, and its rates to the nearest
-/// ones that keep them. @returns nothing where there is none near; what keeps the closures there
-std::optional<Kept> put_on_closures(Integration& data, Vector& y) {
+/// ones that keep them. @returns the closures there; nothing where there is no such state near
+std::optional<Closings> put_on_closures(Integration& data, Vector& y) {
   const Landscape& landscape = data.motion->landscape;
   data.put(y);
-  if (!landscape.close(data.x)) return std::nullopt;
-  const auto closing = closures_at(landscape, data.x, data.piece);
-  if (!closing) return std::nullopt;
-  Kept kept(*closing, landscape.terrain().redundant);
+  auto closings = put_on_closures(landscape, data.x, data.piece);
+  if (!closings) return std::nullopt;
   const Index n = data.moving();
   y.head(n) = data.x(landscape.moving());
-  if (data.has_masses()) y.segment(n, n) = kept(data.speeds(y));
-  return kept;
+  if (data.has_masses()) y.segment(n, n) = closings->kept(data.speeds(y));
+  return closings;
 }
 
 // A positive return value tells CVODE to try a shorter step.
@@ -122,14 +103,14 @@ int projection_callback(double, N_Vector y, N_Vector correction, double, N_Vecto
                         void* user) {
   auto& data = *static_cast<Integration*>(user);
   Vector closed = view(y);
-  const auto kept = put_on_closures(data, closed);
-  if (!kept) return 1;
+  const auto closings = put_on_closures(data, closed);
+  if (!closings) return 1;
   view(correction) = closed - view(y);
   if (error == nullptr) return 0;
   auto e = view(error);
   const Index n = data.moving();
-  e.head(n) = (*kept)(e.head(n));
-  if (data.has_masses()) e.segment(n, n) = (*kept)(e.segment(n, n));
+  e.head(n) = closings->kept(e.head(n));
+  if (data.has_masses()) e.segment(n, n) = closings->kept(e.segment(n, n));
   return 0;
 }
 

@@ -3,7 +3,6 @@
 
 #include "flow.hpp"
 #include "springfold/core/decompositions.hpp"
-#include "springfold/core/row_qr.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -47,28 +46,21 @@ Matrix damping_of(const Motion& motion) {
   return motion.damping_factor * (D.size() > 0 ? D : Matrix(Matrix::Identity(n, n)));
 }
 
-/// Solves W a + J^T nu = p, J a = q for symmetric W, positive on the kernel of J, of whose rows so many depend on the
-/// others.
+/// Solves W a + J^T nu = p, J a = q for symmetric W, positive on the kernel of J.
 struct Balanced {
   Vector a{}, nu{};
 };
-std::optional<Balanced> balance(const Matrix& W, const Matrix& J, Index redundant, const Vector& p,
+std::optional<Balanced> balance(const Matrix& W, const Closings& closings, const Vector& p,
                                 const Vector& q) {
-  const RowQr rows(J, redundant);
-  const bool plain = rows.independent();
-  const Matrix Z = plain ? rows.kernel() : kernel_of(J);
-  Balanced result{Vector::Zero(W.rows()), Vector::Zero(J.rows())};
-  if (J.rows() > 0) result.a = plain ? rows.least_norm(q) : least_squares(J, q);
+  Balanced result{closings.least_norm(q), {}};
+  const Matrix Z = closings.motions();
   if (Z.cols() > 0) {
     const Matrix reduced = Z.transpose() * W * Z;
     const Vector values = symmetric_eigenvalues(reduced);
     if (!(values.minCoeff() > none_part * values.maxCoeff())) return std::nullopt;
     result.a += Z * solve_definite(reduced, Vector(Z.transpose() * (p - W * result.a)));
   }
-  if (J.rows() > 0) {
-    const Vector rest = p - W * result.a;
-    result.nu = plain ? rows.multipliers(rest) : least_squares(J.transpose(), rest);
-  }
+  result.nu = closings.multipliers(p - W * result.a);
   return result;
 }
 
@@ -143,16 +135,17 @@ std::optional<FlowRate> overdamped_rate(const Motion& motion, const Vector& x, c
   const auto at = first_order(motion.landscape, x, piece);
   if (!at) return std::nullopt;
   const Matrix D = damping_of(motion);
-  const auto solved = balance(D, at->closing, motion.landscape.terrain().redundant, -at->gradient,
-                              -fading * at->gap);
+  const Closings closings(at->closing, motion.landscape.terrain().redundant);
+  const auto solved = balance(D, closings, -at->gradient, -fading * at->gap);
   if (!solved) return std::nullopt;
   return FlowRate{solved->a, solved->nu, solved->a.dot(D * solved->a)};
 }
 
-std::optional<Matrix> closures_at(const Landscape& landscape, const Vector& x, const Piece& piece) {
+std::optional<Closings> put_on_closures(const Landscape& landscape, Vector& x, const Piece& piece) {
+  if (!landscape.close(x)) return std::nullopt;
   const auto at = first_order(landscape, x, piece);
   if (!at) return std::nullopt;
-  return at->closing;
+  return Closings(at->closing, landscape.terrain().redundant);
 }
 
 std::optional<Matrix> overdamped_jacobian(const Motion& motion, const Vector& x, const Piece& piece,
@@ -209,7 +202,7 @@ std::optional<FlowRate> inertial_rate(const Motion& motion, const Vector& x, con
       p -= masses[i].mass * (masses[i].jacobian.transpose() * curved[i]);
   }
   const Vector q = -bend - 2 * fading * (at->closing * v) - fading * fading * at->gap;
-  const auto solved = balance(M, at->closing, landscape.terrain().redundant, p, q);
+  const auto solved = balance(M, Closings(at->closing, landscape.terrain().redundant), p, q);
   if (!solved) return std::nullopt;
   return FlowRate{solved->a, solved->nu, v.dot(D * v)};
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "closings.hpp"
 #include "springfold/core/decompositions.hpp"
-#include "springfold/core/row_qr.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -103,9 +103,8 @@ bool Landscape::close_gaps(Vector& x) const {
   if (!piece) return false;
   Matrix A;
   Vector r, b;
-  RowQr rows;
-  Matrix J;
-  bool known = false;  // `rows` are good for corrections
+  Closings closings;
+  bool known = false;  // they are good for further corrections
   double last = std::numeric_limits<double>::infinity();
   for (int k = 0; k < rounds; ++k) {
     const bool first = k == 0;  // seldom closed: both at once are cheaper than one after the other
@@ -121,11 +120,10 @@ bool Landscape::close_gaps(Vector& x) const {
     last = size;
     if (!again) {
       if (!first && !terrain_.problem.derivatives(x, terrain_.lambda, *piece, A, b)) return false;
-      J = block_of(A, multipliers_, moving_);
-      rows.compute(J, terrain_.redundant);
-      known = rows.independent();
+      closings.compute(block_of(A, multipliers_, moving_), terrain_.redundant);
+      known = closings.independent();
     }
-    Vector step = -(known ? rows.least_norm(gap) : least_squares(J, gap));
+    Vector step = -closings.least_norm(gap);
     const double length = step.lpNorm<Eigen::Infinity>();
     if (length > longest) step *= longest / length;
     add_to_entries(x, moving_, step);
@@ -151,12 +149,11 @@ std::optional<Ground> Landscape::ground_on(const Vector& x, const Piece& piece) 
   if (!evaluate()) return std::nullopt;
   at.gradient = entries_of(r, moving_);
   at.closing = block_of(A, multipliers_, moving_);
-  const RowQr rows(at.closing, terrain_.redundant);
-  at.motions = rows.independent() ? rows.kernel() : kernel_of(at.closing);
+  const Closings closings(at.closing, terrain_.redundant);
+  at.motions = closings.motions();
   at.slope = at.motions.transpose() * at.gradient;
   if (!multipliers_.empty()) {
-    at.x(multipliers_) = -(rows.independent() ? rows.multipliers(at.gradient)
-                                              : least_squares(at.closing.transpose(), at.gradient));
+    at.x(multipliers_) = -closings.multipliers(at.gradient);
     if (!evaluate()) return std::nullopt;
   }
   const Matrix H = block_of(A, moving_, moving_);
