@@ -200,8 +200,8 @@ std::optional<Measure> DesignPath::at_value(const std::string& name, const std::
 }
 
 std::optional<Measure> DesignPath::least_slope(const BasePath& path, const std::string& quantity,
-                                               double end) const {
-  const auto least = analysis::least_slope(base(), path, quantity, end, slope_units_);
+                                               double end, Climb climb) const {
+  const auto least = analysis::least_slope(base(), path, quantity, end, slope_units_, climb);
   if (!least) return std::nullopt;
   return with_rates(least->value, [&](const CaseCurves& curves) -> std::optional<Vector> {
     const auto rate = rate_of(curves, curves.base(), *least);

@@ -53,11 +53,11 @@ class DesignPath {
                                   double value) const;
   std::optional<Measure> at_point(const SpecialPoint& point, const std::string& column) const;
 
-  /// The least slope of the path before `quantity` passes `end`: d(lambda)/ds, under displacement control that of the
-  /// force, in the units of the case. The path turns back where it is negative.
+  /// The least slope of the path before `quantity` passes `end`: d(lambda)/ds or d(force)/ds, in the units of the case.
+  /// What climbs turns back where it is negative.
   /// @param path  of the base, or that of the load
-  std::optional<Measure> least_slope(const BasePath& path, const std::string& quantity,
-                                     double end) const;
+  std::optional<Measure> least_slope(const BasePath& path, const std::string& quantity, double end,
+                                     Climb climb) const;
 
  private:
   std::size_t column(const std::string& name) const;

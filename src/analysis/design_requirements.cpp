@@ -181,17 +181,17 @@ bool Requirements::add_critical(const DesignPath& path, const Vector& values,
     const double reached = first ? found.modes.front().value : infinite;
     sheet.begin(blank[i], reached);
     const bool climbs = ways[i] == Way::climbing;
-    const bool turns = first && (first->kind == EventKind::limit_point ||
-                                 first->kind == EventKind::corner_limit_point);
+    const bool turns = first && turns_back(path.base(), settings_of(wanted), found.path, *first);
     if (climbs) {
-      const auto slope = path.least_slope(found.path, wanted.quantity, wanted.at_least);
+      const auto slope = path.least_slope(found.path, wanted.quantity, wanted.at_least,
+                                          climb_of(path.base(), settings_of(wanted)));
       if (!slope) {
         sheet.why = "the slope of the path is not known";
         return false;
       }
       sheet.add(-slope->value, -slope->rates);
     }
-    // A limit point is what the climb rules out.
+    // A limit point is what the climb rules out, also one at which equal parts lose their stiffness together.
     const double scale = scale_of(wanted.at_least);
     const bool counts = first && !(climbs && turns) && std::isfinite(wanted.at_least);
     for (std::size_t k = 0; k < modes_together; ++k)

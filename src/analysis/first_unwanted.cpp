@@ -27,6 +27,13 @@ bool turns_back(const Member& member, const BasePath& path, const SpecialPoint& 
 
 }  // namespace
 
+bool turns_back(const Member& member, const CriticalPointSettings& settings, const BasePath& path,
+                const SpecialPoint& point) {
+  CriticalPointSettings turns = settings;
+  turns.unwanted = Unwanted::limit_point;
+  return is_unwanted(member, turns, path, point);
+}
+
 bool is_unwanted(const Member& member, const CriticalPointSettings& settings, const BasePath& path,
                  const SpecialPoint& point) {
   const bool only_turns = settings.unwanted == Unwanted::limit_point;

@@ -41,6 +41,11 @@ std::string why_path_misses(const CaseCurves& curves, double mu, double beside,
 bool is_unwanted(const Member& member, const CriticalPointSettings& settings, const BasePath& path,
                  const SpecialPoint& point);
 
+/// Does the load turn back there, whatever else happens at the point: where equal parts lose their stiffness together
+/// it is a branch point as well?
+bool turns_back(const Member& member, const CriticalPointSettings& settings, const BasePath& path,
+                const SpecialPoint& point);
+
 /// Why something is not known at values of a parameter: what holds at several of them is told once.
 class DoubtedValues {
  public:

@@ -83,26 +83,22 @@ void look_between(const Member& member, const CurvePoint& a, const CurvePoint& b
   };
   const auto slope = [&](double part) {
     const auto point = point_at(part);
-    const auto value = point ? slope_at(member, *point, point->tangent, least.units) : std::nullopt;
+    const auto value =
+        point ? slope_at(member, *point, point->tangent, least.units, least.climb) : std::nullopt;
     return value.value_or(HUGE_VAL);
   };
   const auto [part, value] = boost::math::tools::brent_find_minima(slope, 0.0, 1.0, bits);
   if (!(value < least.value)) return;
-  least = {value, least.units, *point_at(part), std::nullopt, false};
-}
-
-bool is_of_force(const Member& member) {
-  const ControlMode control = member.study.control;
-  return control == ControlMode::pose || control == ControlMode::mixed;
+  least = {value, least.units, least.climb, *point_at(part), std::nullopt, false};
 }
 
 /// In which sense the slope of a path is told: -1 against its own. With an odd number of unstable modes at the start
 /// lambda grows along the path where it falls along the one that leaves a stable start.
-double sense_of(const Member& member, const BasePath& path) {
+double sense_of(const Member& member, const BasePath& path, Climb climb) {
   const bool turns = std::any_of(path.points.begin(), path.points.end(), [](const auto& point) {
     return point.kind == EventKind::limit_point || point.kind == EventKind::corner_limit_point;
   });
-  if (is_of_force(member) || !turns) return 1;
+  if (climb == Climb::force || !turns) return 1;
   const auto modes = unstable_at_start(member, CriticalPointSettings{});
   return modes && *modes % 2 != 0 ? -1 : 1;
 }
@@ -138,8 +134,14 @@ continuation::StateFunction distance_from(const CaseCurves& curves, const EndLim
 
 }  // namespace
 
+Climb climb_of(const Member& member, const CriticalPointSettings& settings) {
+  const ControlMode control = member.study.control;
+  const bool is_driven = control == ControlMode::pose || control == ControlMode::mixed;
+  return is_driven && settings.stability == StabilityOf::dead_load ? Climb::force : Climb::lambda;
+}
+
 std::optional<double> slope_at(const Member& member, const CurvePoint& point,
-                               const Direction& reference, const SlopeUnits& units) {
+                               const Direction& reference, const SlopeUnits& units, Climb climb) {
   const PathProblem& problem = *member.problem;
   continuation::Linearisation at;
   if (!continuation::linearise_densely(problem, point.x, point.lambda, point.piece, at))
@@ -149,7 +151,7 @@ std::optional<double> slope_at(const Member& member, const CurvePoint& point,
   const double dlambda = member.setup.lambda_scale / units.lambda * tangent->dlambda;
   const double ds =
       std::sqrt(problem.metric().dot(tangent->dx.cwiseAbs2().eval()) + dlambda * dlambda);
-  if (!is_of_force(member)) return dlambda / ds;
+  if (climb == Climb::lambda) return dlambda / ds;
   CurvePoint along = point;
   along.tangent = *tangent;
   const double force = member.setup.scales.force / units.force;
@@ -158,14 +160,14 @@ std::optional<double> slope_at(const Member& member, const CurvePoint& point,
 
 std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path,
                                       const std::string& quantity, double end,
-                                      const SlopeUnits& units) {
-  LeastSlope least{.value = HUGE_VAL, .units = units};
+                                      const SlopeUnits& units, Climb climb) {
+  LeastSlope least{.value = HUGE_VAL, .units = units, .climb = climb};
   const QuantityDefinition* column = member.quantity(quantity);
   const auto beyond = [&](const CurvePoint& point) {
     return std::isfinite(end) && column != nullptr &&
            member.evaluator().value(*column, point) > end;
   };
-  const double sense = sense_of(member, path);
+  const double sense = sense_of(member, path, climb);
   bool is_first = true;
   for (const Stretch& stretch : stretches_of(path.forward)) {
     const auto& points = stretch.points;
@@ -173,7 +175,7 @@ std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path
     std::vector<double> slopes;
     for (; last < points.size(); ++last) {
       const auto slope =
-          slope_at(member, points[last], in_sense(sense, points[last].tangent), units);
+          slope_at(member, points[last], in_sense(sense, points[last].tangent), units, climb);
       if (!slope) return std::nullopt;
       slopes.push_back(*slope);
       if (*slope < slopes[lowest]) lowest = last;
@@ -181,7 +183,7 @@ std::optional<LeastSlope> least_slope(const Member& member, const BasePath& path
     }
     const std::size_t count = slopes.size();
     if (slopes[lowest] < least.value) {
-      least = {slopes[lowest], units, points[lowest], std::nullopt, false};
+      least = {slopes[lowest], units, climb, points[lowest], std::nullopt, false};
       least.point.tangent = in_sense(sense, least.point.tangent);
       const Hit* hit = lowest == 0                   ? stretch.from
                        : lowest + 1 == points.size() ? stretch.to
@@ -208,7 +210,7 @@ std::optional<double> rate_of(const CaseCurves& curves, const Member& base,
   const Direction reference = least.point.tangent;
   const auto values = [&](const Member& member, CurvePoint there) -> std::optional<Vector> {
     there.piece = least.point.piece;
-    const auto slope = slope_at(member, there, reference, least.units);
+    const auto slope = slope_at(member, there, reference, least.units, least.climb);
     return slope ? std::optional<Vector>{Vector::Constant(1, *slope)} : std::nullopt;
   };
   if (least.switching) {
