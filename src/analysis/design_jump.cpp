@@ -267,9 +267,10 @@ JumpEnd BoundarySearch::run(const std::vector<Vector>& known) {
   return end_;
 }
 
-/// Is what is missed behind a bracket no less behind a much narrower one, as where something jumps?
+/// Is what is missed behind a bracket no less behind a much narrower one, as where something jumps? Where it is not
+/// known that is not told.
 bool may_jump(const Bracket& wide, const Bracket& narrow) {
-  return !(narrow.missed < wide.missed * jumps_from);
+  return !std::isfinite(wide.missed) || !(narrow.missed < wide.missed * jumps_from);
 }
 
 /// The place on the boundary, and what is missed just beyond.
@@ -320,6 +321,10 @@ Bracket bracket(const JumpProblem& problem, const Vector& from, const Vector& to
   return narrowed(problem, {.from = from, .way = to - from}, width);
 }
 
+JumpEnd drawn_to(const JumpProblem& problem, const Vector& from, const Vector& to) {
+  return end_within(problem, {.from = from, .way = to - from});
+}
+
 std::optional<JumpEnd> jump_between(const JumpProblem& problem, const Vector& from,
                                     const Vector& to) {
   const Bracket wide = bracket(problem, from, to, wide_gap),
@@ -341,7 +346,7 @@ JumpEnd drawn_back(const JumpProblem& problem, const Vector& changes) {
     if (holds(problem.judge(target, {})))
       end.changes = target;
     else
-      end = end_within(problem, {.from = end.changes, .way = target - end.changes});
+      end = drawn_to(problem, end.changes, target);
     if (!((before - end.changes).norm() > stationary * length)) break;
   }
   return end;

@@ -60,8 +60,10 @@ Bracket narrowed(const JumpProblem& problem, Bracket at, double width);
 /// Its place that meets the requirements.
 inline Vector met_place(const Bracket& at) { return at.from + at.good * at.way; }
 
-/// The end of the straight way to what does not meet the requirements, if something jumps there, or designs beyond it
-/// cannot be judged; nothing otherwise.
+/// The end of the straight way from a place that meets the requirements to one that does not.
+JumpEnd drawn_to(const JumpProblem& problem, const Vector& from, const Vector& to);
+
+/// The same if something jumps there, or designs beyond it cannot be judged; nothing otherwise.
 std::optional<JumpEnd> jump_between(const JumpProblem& problem, const Vector& from,
                                     const Vector& to);
 

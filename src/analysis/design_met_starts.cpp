@@ -30,12 +30,14 @@ FoundDesign DesignSearch::along_jump(FoundDesign design, const JumpEnd& end) {
   return design;
 }
 
-/// Of paths that are to climb all the way, whose least slope jumps where branches cross: a search by derivatives steps
-/// over that, to the smooth boundary of other designs, or none.
-std::vector<DesignSearch::Candidate> DesignSearch::met_starts() {
+/// The least slope of paths that are to climb all the way jumps where branches cross: a search by derivatives steps
+/// over that, to the smooth boundary of other designs, or none. Where such searches lead to no design at all, as their
+/// requirements jump at the edge of a small set that none of them begins in, it is not said that there is none before
+/// these places are looked at.
+std::vector<DesignSearch::Candidate> DesignSearch::met_starts(bool is_met) {
   std::vector<Candidate> list;
   const std::vector<Way> ways = first_ways();
-  if (std::find(ways.begin(), ways.end(), Way::climbing) == ways.end()) return list;
+  if (is_met && std::find(ways.begin(), ways.end(), Way::climbing) == ways.end()) return list;
   const Vector none = Vector::Zero(low_.size());
   std::vector<Vector> places;
   for (Index i = 0; i < low_.size(); ++i)
@@ -59,6 +61,13 @@ std::optional<FoundDesign> DesignSearch::followed_to_jump(const Candidate& from,
   if (end->slope.size() > 0) known.least.push_back(end->changes);
   return along_jump({.status = DesignStatus::met, .changes = end->changes, .ways = from.ways},
                     *end);
+}
+
+/// The last design on the straight way to the case: what is known to meet the requirements is an answer, whether or not
+/// a search leads on from it.
+FoundDesign DesignSearch::drawn_to_case(const Candidate& from) {
+  const JumpEnd end = drawn_to(jump_problem(from.ways), from.changes, Vector::Zero(low_.size()));
+  return along_jump({.status = DesignStatus::met, .changes = end.changes, .ways = from.ways}, end);
 }
 
 }  // namespace springfold::analysis

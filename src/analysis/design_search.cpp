@@ -314,9 +314,17 @@ FoundDesign DesignSearch::best_of(const std::vector<Candidate>& list) {
   };
   for (const auto* one : promising(list))
     if (!stopped_) take(followed(*one, ends));
-  const auto met = met_starts();
-  for (const Candidate* one : promising(met))
-    if (!stopped_) take(followed_to_jump(*one, ends));
+  const auto is_worse = [&](const Candidate& than) {
+    return best.status != DesignStatus::met ||
+           size_of(than.changes) < size_of(best.changes) * (1 - same_size);
+  };
+  const auto met = met_starts(best.status == DesignStatus::met);
+  for (const Candidate* one : promising(met)) {
+    if (stopped_) break;
+    take(followed_to_jump(*one, ends));
+    if (is_worse(*one)) take(followed(*one, ends));
+    if (is_worse(*one)) take(drawn_to_case(*one));
+  }
   return best;
 }
 

@@ -171,6 +171,16 @@ TEST(JumpDesign, FindsTheLeastChangeWhereAReleaseEndsBuckling) {
   EXPECT_NEAR(jump_value(result, "g"), 0.2 * (1 + w), 1e-5);
 }
 
+TEST(JumpDesign, IsFoundWhereOneBoundAloneMeetsWhatNoStartDoes) {
+  // 0.1 = g (1 - g), a hundredth of the range from its lower bound.
+  for (const std::string starts : {"1", "8"}) {
+    const auto result =
+        released_strut("parameters = { g = [0.11, 0.4] }\nstarts = " + starts + "\n");
+    expect_least(result);
+    EXPECT_NEAR(jump_value(result, "g"), (1 - std::sqrt(0.6)) / 2, 1e-9);
+  }
+}
+
 TEST(JumpDesign, KeepsAnotherRequirementOnItsLimit) {
   // The stiffness at the start, k1 + 1, wants k1 = 1.2: u = 0.92 + 1.44 w - 0.48 w^2.
   const auto result = released_strut(
