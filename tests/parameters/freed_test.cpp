@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
 
@@ -160,6 +161,108 @@ TEST(Freed, LimitPointOfTheForceIsFoundFromBeside) {
   const auto point = polish_critical(driven_trusses(), start);
   ASSERT_TRUE(point);
   EXPECT_NEAR(std::atan(unit_of_drive * point->lambda), f, 1e-12);
+}
+
+/// The truss over a spring that pushes its apex up where that is below the height `stop`.
+struct StoppedTruss {
+  Truss truss{};
+  double stiffness = 0, stop = 0;
+
+  static Index size() { return 2; }
+  static bool symmetric() { return true; }
+  double acting(const Piece& piece) const { return piece[0] < 0 ? stiffness : 0; }
+  bool residual(const Vector& x, double lambda, const Piece& piece, Vector& F) const {
+    truss.residual(x, lambda, F);
+    F[1] += acting(piece) * (x[1] - stop);
+    return true;
+  }
+  bool derivatives(const Vector& x, double lambda, const Piece& piece, Matrix& J,
+                   Vector& by_lambda) const {
+    truss.derivatives(x, lambda, J, by_lambda);
+    J(1, 1) += acting(piece);
+    return true;
+  }
+  static Index switch_count() { return 1; }
+  bool switches(const Vector& x, double, Vector& g) const {
+    g = single(x[1] - stop);
+    return true;
+  }
+  static bool switch_gradients(const Vector&, double, Matrix& dg_dx, Vector& dg_dlambda) {
+    dg_dx = Matrix{{0, 1}};
+    dg_dlambda = Vector::Zero(1);
+    return true;
+  }
+  static const char* switch_name(Index) { return "stop"; }
+};
+
+/// The same with y prescribed.
+struct DrivenStoppedTruss {
+  StoppedTruss free{};
+
+  static Index size() { return 1; }
+  static bool symmetric() { return true; }
+  bool residual(const Vector& x, double lambda, const Piece&, Vector& F) const {
+    return DrivenTruss{free.truss}.residual(x, lambda, F);
+  }
+  bool derivatives(const Vector& x, double lambda, const Piece&, Matrix& J,
+                   Vector& by_lambda) const {
+    return DrivenTruss{free.truss}.derivatives(x, lambda, J, by_lambda);
+  }
+  static Index switch_count() { return 1; }
+  bool switches(const Vector&, double lambda, Vector& g) const {
+    g = single(unit_of_drive * lambda - free.stop);
+    return true;
+  }
+  static bool switch_gradients(const Vector&, double, Matrix& dg_dx, Vector& dg_dlambda) {
+    dg_dx = Matrix::Zero(1, 1);
+    dg_dlambda = single(unit_of_drive);
+    return true;
+  }
+  static const char* switch_name(Index) { return "stop"; }
+};
+
+using StoppedTrusses = std::function<StoppedTruss(double mu)>;
+Family driven(const StoppedTrusses& of) {
+  return family_of<DrivenStoppedTruss>([=](double mu) { return DrivenStoppedTruss{of(mu)}; });
+}
+/// A limit point of the force whose bars stand at the angle f.
+CriticalStart limit_of(const StoppedTrusses& of, double mu, double f, const Piece& piece) {
+  CriticalStart start = start_at(CriticalKind::zero, single(0), std::tan(f) / unit_of_drive, mu);
+  start.piece = piece;
+  start.freed = {.at = family_of<StoppedTruss>(of).at, .place = 1, .unit = unit_of_drive};
+  return start;
+}
+
+TEST(Freed, CurveOfLimitPointsOfTheForceEndsWhereItReachesASpringThatSwitches) {
+  const double alpha = 66 * radians_of_degree, end = 62 * radians_of_degree,
+               stop = std::tan(angle_of_limit(end));
+  const StoppedTrusses trusses = [=](double mu) { return StoppedTruss{{mu}, 0.3, stop}; };
+  const auto curve =
+      follow_critical(driven(trusses), limit_of(trusses, alpha, angle_of_limit(alpha), {1}), false,
+                      {stop_at(55 * radians_of_degree, 70 * radians_of_degree)}, {});
+  const auto ends = hits_of(curve, Degeneracy::fold_meets_activation);
+  ASSERT_EQ(ends.size(), 1U);
+  EXPECT_EQ(ends[0].name, "stop");
+  EXPECT_NEAR(ends[0].point.mu, end, 1e-10);
+  EXPECT_NEAR(unit_of_drive * ends[0].point.lambda, stop, 1e-10);
+  EXPECT_EQ(curve.stop, StopReason::event);
+}
+
+TEST(Freed, CurveOfLimitPointsOfTheForceFollowsASpringWhoseLawChangesAlongIt) {
+  // cos^3 f = (1 + stiffness/2) cos(alpha) below the stop, which rises with the stiffness.
+  const double alpha = 72 * radians_of_degree;
+  const StoppedTrusses trusses = [=](double mu) { return StoppedTruss{{alpha}, mu, 3 + mu}; };
+  const auto angle = [=](double stiffness) {
+    return std::acos(std::cbrt((1 + stiffness / 2) * std::cos(alpha)));
+  };
+  const auto curve = follow_critical(driven(trusses), limit_of(trusses, 0.2, angle(0.2), {-1}),
+                                     true, {stop_at(0.1, 1)}, {});
+  EXPECT_EQ(curve.stop_detail, "end");
+  EXPECT_GT(curve.points.back().mu, 0.9);
+  for (const CriticalPoint& p : curve.points) {
+    EXPECT_NEAR(std::atan(unit_of_drive * p.lambda), angle(p.mu), 1e-9);
+    EXPECT_NEAR(p.x[0], 0, 1e-9);
+  }
 }
 
 }  // namespace
