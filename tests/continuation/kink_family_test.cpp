@@ -93,37 +93,6 @@ TEST(KinkFamily, InWhichAnotherEigenvalueChangesHasABranchPointThere) {
   EXPECT_TRUE(hits_of(curve, HitKind::unresolved).empty());
 }
 
-/// A column on a torsion spring of stiffness 1 with play: F = [x - gap]+ - [-x - gap]+ - lambda sin x. Without a load
-/// all x within the play are equilibria, x = 0 is one under every load.
-struct LooseColumn {
-  double gap = 0;
-  static Index size() { return 1; }
-  static bool symmetric() { return true; }
-  static double stiffness(const Piece& piece) { return piece[0] > 0 || piece[1] < 0 ? 1 : 0; }
-  bool residual(const Vector& x, double lambda, const Piece& piece, Vector& F) const {
-    const double free = piece[0] > 0 ? gap : -gap;
-    F = Vector::Constant(1, stiffness(piece) * (x[0] - free) - lambda * std::sin(x[0]));
-    return true;
-  }
-  static bool derivatives(const Vector& x, double lambda, const Piece& piece, Matrix& dF_dx,
-                          Vector& dF_dlambda) {
-    dF_dx = Matrix::Constant(1, 1, stiffness(piece) - lambda * std::cos(x[0]));
-    dF_dlambda = Vector::Constant(1, -std::sin(x[0]));
-    return true;
-  }
-  static Index switch_count() { return 2; }
-  bool switches(const Vector& x, double, Vector& g) const {
-    g = Vector{{x[0] - gap, x[0] + gap}};
-    return true;
-  }
-  static bool switch_gradients(const Vector&, double, Matrix& dg_dx, Vector& dg_dlambda) {
-    dg_dx = Matrix::Ones(2, 1);
-    dg_dlambda = Vector::Zero(2);
-    return true;
-  }
-  static const char* switch_name(Index j) { return j == 0 ? "right" : "left"; }
-};
-
 TEST(KinkFamily, NarrowerThanIsToldApartIsNotLeftWithoutAWord) {
   for (const double gap : {2e-13, 5e-13, 2e-12, 1e-11}) {
     const Diagram diagram =
