@@ -6,6 +6,7 @@
 
 #include "case_runs.hpp"
 #include "io/figure.hpp"
+#include "small_structures.hpp"
 
 namespace springfold::io {
 namespace {
@@ -111,18 +112,8 @@ std::pair<double, double> across(const Polyline& outline) {
 TEST(CriticalLoads, HaveNoPieceOfNoLengthAtTheEndOfTheRange) {
   const std::string truss = R"toml([parameters]
 psi = "90*deg"
-[[node]]
-name = "l"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "r"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "apex"
-at = [0, 0.2]
-[[bar]]
+)toml" + supports_and_apex("apex", "0.2") +
+                            R"toml([[bar]]
 from = "l"
 to = "apex"
 stiffness = 1

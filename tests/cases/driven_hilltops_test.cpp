@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "case_runs.hpp"
+#include "small_structures.hpp"
 #include "springfold/analysis/design.hpp"
 
 namespace springfold::io {
@@ -54,28 +55,18 @@ std::string truss_under_head(const std::string& fixed) {
 [parameters]
 alpha = "74*deg"
 h = "tan(alpha)"
-[[node]]
-name = "left"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "right"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "apex"
-at = [0, "h"]
-[[node]]
+)toml" + supports_and_apex("apex", R"("h")") +
+         R"toml([[node]]
 name = "head"
 at = [0, "h + 4"]
 )toml" + fixed +
          R"toml(
 [[bar]]
-from = "left"
+from = "l"
 to = "apex"
 stiffness = 1
 [[bar]]
-from = "right"
+from = "r"
 to = "apex"
 stiffness = 1
 [[bar]]
@@ -94,23 +85,9 @@ elements = [
 
 /// A strut that gives way along itself, on a hinge that is relaxed at an angle at which branches cross for k = 4 cos^2
 /// 0.2.
-const std::string crooked_strut = R"toml(
-[parameters]
-t0 = "0.2 - sin(0.4)/2"
-k = 4
-c = 1
-[[body]]
-name = "tip"
-task_space = "xy"
-pose = ["sin(t0)", "cos(t0)"]
-[[chain]]
-name = "strut"
-elements = [
-  { joint = "revolute", axis = "-z", name = "hinge", role = "preloaded", initial = "t0", spring = { law = "linear", stiffness = "c", free = "t0" } },
-  { joint = "prismatic", axis = "y", name = "along", role = "virtual", stiffness = "k" },
-  { rigid = [0, 1] },
-]
-)toml";
+const std::string crooked_strut =
+    "[parameters]\nt0 = \"0.2 - sin(0.4)/2\"\nk = 4\nc = 1\n" +
+    strut_that_gives(R"({ law = "linear", stiffness = "c", free = "t0" })", R"("k")");
 const double stiffness_of_crossing = 4 * std::pow(std::cos(0.2), 2);
 
 std::string driven_study(const std::string& body, const std::string& control,

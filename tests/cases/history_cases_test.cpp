@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cases/case_runs.hpp"
+#include "small_structures.hpp"
 
 namespace springfold::io {
 namespace {
@@ -284,23 +285,12 @@ until = { lambda = [0, 0.4] }
 
 /// A symmetric truss in its limit point: to first order V_y = a y^2/2 - b x^2/2, so that two curves cross there.
 TEST(LoadHistories, LeaveALimitPointAcrossByAllItsWays) {
-  const Ran ran = run(R"toml([[node]]
-name = "left"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "right"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "apex"
-at = [0, 0.5]
-[[bar]]
-from = "left"
+  const Ran ran = run(supports_and_apex("apex", "0.5") + R"toml([[bar]]
+from = "l"
 to = "apex"
 EA = 1
 [[bar]]
-from = "right"
+from = "r"
 to = "apex"
 EA = 1
 [[study]]

@@ -15,24 +15,14 @@ std::string weighed_truss(const std::string& study) {
   return R"toml(
 [parameters]
 W = 0.05
-[[node]]
-name = "left"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "right"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "apex"
-at = [0, 1]
-fixed = ["x"]
+)toml" + supports_and_apex("apex", "1") +
+         R"toml(fixed = ["x"]
 [[bar]]
-from = "left"
+from = "l"
 to = "apex"
 stiffness = 1
 [[bar]]
-from = "right"
+from = "r"
 to = "apex"
 stiffness = 1
 [[study]]

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "case_runs.hpp"
+#include "small_structures.hpp"
 #include "springfold/analysis/design.hpp"
 
 namespace springfold::io {
@@ -16,18 +17,8 @@ TEST(NearestMiss, OfACriticalLoadIsTheLargestOneWithinTheBounds) {
 [parameters]
 h = 0.5
 k = 1
-[[node]]
-name = "l"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "r"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "t"
-at = [0, "h"]
-fixed = ["x"]
+)toml" + supports_and_apex("t", R"("h")") +
+                          R"toml(fixed = ["x"]
 [[bar]]
 from = "l"
 to = "t"

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cases/case_runs.hpp"
+#include "small_structures.hpp"
 #include "springfold/io/film.hpp"
 
 namespace springfold::io {
@@ -202,18 +203,7 @@ axes = [{ pose = "x", from = -0.2, to = 0.2, points = 3 }, { pose = "y", from = 
 
 /// A truss above a stop: the stop switches in two rows at one place.
 TEST(SwitchingFilm, NamesAPointOnce) {
-  const Ran ran = run(R"toml([[node]]
-name = "l"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "r"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "apex"
-at = [0, 0.2]
-[[bar]]
+  const Ran ran = run(supports_and_apex("apex", "0.2") + R"toml([[bar]]
 from = "l"
 to = "apex"
 stiffness = 1

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "case_runs.hpp"
+#include "small_structures.hpp"
 
 namespace springfold::io {
 namespace {
@@ -17,24 +18,14 @@ TEST(OffThePath, AThresholdIsWhereThePathNoLongerComesToThePointThatIsFollowed) 
   const auto result = run(R"toml(
 [parameters]
 psi = -0.2
-[[node]]
-name = "left"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "right"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "apex"
-at = [0, 0.3]
-[[bar]]
-from = "left"
+)toml" + supports_and_apex("apex", "0.3") +
+                          R"toml([[bar]]
+from = "l"
 to = "apex"
 stiffness = 1
 free = "sqrt(1 + 0.3^2)"
 [[bar]]
-from = "right"
+from = "r"
 to = "apex"
 stiffness = 0.2
 free = "sqrt(1 + 0.3^2)"

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "case_runs.hpp"
+#include "small_structures.hpp"
 #include "springfold/analysis/snap.hpp"
 
 namespace springfold::io {
@@ -21,23 +22,12 @@ law = { law = "one_sided", stiffness = 2, from = 0, side = "NAME" }
   for (std::string* text : {&above, &below})
     for (std::size_t at; (at = text->find("NAME")) != std::string::npos;)
       text->replace(at, 4, text == &above ? "above" : "below");
-  const std::string rest = R"([[node]]
-name = "L"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "R"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "apex"
-at = [0, 3]
-[[bar]]
-from = "L"
+  const std::string rest = supports_and_apex("apex", "3") + R"([[bar]]
+from = "l"
 to = "apex"
 stiffness = 1
 [[bar]]
-from = "R"
+from = "r"
 to = "apex"
 stiffness = 1
 [[study]]

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "case_runs.hpp"
+#include "small_structures.hpp"
 
 namespace springfold::io {
 namespace {
@@ -11,18 +12,8 @@ std::string two_bars(const std::string& study) {
   return R"(
 [parameters]
 h = 0.5
-[[node]]
-name = "l"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "r"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "a"
-at = [0, "h"]
-[[bar]]
+)" + supports_and_apex("a", R"("h")") +
+         R"([[bar]]
 from = "l"
 to = "a"
 stiffness = 1

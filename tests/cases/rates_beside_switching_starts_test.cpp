@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "case_runs.hpp"
+#include "small_structures.hpp"
 
 namespace springfold::io {
 namespace {
@@ -11,24 +12,13 @@ namespace {
 /// Two bars and a cable from above that is slack at the start by `slack`, and becomes active at the length lc.
 std::string truss_with_cable(double slack, const std::string& control, const std::string& study) {
   const double length = std::hypot(0.6, 0.5);
-  return "[parameters]\nlc = " + std::to_string(length + slack) + R"toml(
-[[node]]
-name = "L"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "R"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "a"
-at = [0, 0.5]
-[[bar]]
-from = "L"
+  return "[parameters]\nlc = " + std::to_string(length + slack) + supports_and_apex("a", "0.5") +
+         R"toml([[bar]]
+from = "l"
 to = "a"
 stiffness = 1
 [[bar]]
-from = "R"
+from = "r"
 to = "a"
 stiffness = 1.5
 [[spring]]

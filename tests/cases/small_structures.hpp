@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "cases/number_text.hpp"
 
@@ -28,21 +29,39 @@ elements = [
 )toml";
 }
 
+/// A strut of length 1 on a hinge with this spring, at the angle t0 from the vertical, a parameter of the case, that
+/// gives way along itself. @param along its stiffness, a number or the name of a parameter in quotation marks
+inline std::string strut_that_gives(const std::string& hinge, const std::string& along) {
+  return R"toml(
+[[body]]
+name = "tip"
+task_space = "xy"
+pose = ["sin(t0)", "cos(t0)"]
+[[chain]]
+name = "strut"
+elements = [
+  { joint = "revolute", axis = "-z", name = "hinge", role = "preloaded", initial = "t0", spring = )toml" +
+         hinge +
+         R"toml( },
+  { joint = "prismatic", axis = "y", name = "along", role = "virtual", stiffness = )toml" +
+         along + R"toml( },
+  { rigid = [0, 1] },
+]
+)toml";
+}
+
+/// Nodes l at (-1, 0) and r at (1, 0), which are fixed, and one above the middle between them. What follows may say
+/// more of that one. @param height a number, or a formula in quotation marks
+inline std::string supports_and_apex(const std::string& apex, const std::string& height) {
+  std::string text;
+  for (const auto& [name, x] : {std::pair{"l", "-1"}, std::pair{"r", "1"}})
+    text += std::string{"[[node]]\nname = \""} + name + "\"\nat = [" + x + ", 0]\nfixed = true\n";
+  return text + "[[node]]\nname = \"" + apex + "\"\nat = [0, " + height + "]\n";
+}
+
 /// A flat truss of half span 1 and height 0.5; kv, a parameter of the case, is the stiffness of a vertical spring at
 /// its top.
-inline const std::string truss_with_vertical_spring = R"toml(
-[[node]]
-name = "l"
-at = [-1, 0]
-fixed = true
-[[node]]
-name = "r"
-at = [1, 0]
-fixed = true
-[[node]]
-name = "t"
-at = [0, 0.5]
-[[bar]]
+inline const std::string truss_with_vertical_spring = supports_and_apex("t", "0.5") + R"toml([[bar]]
 from = "l"
 to = "t"
 stiffness = 1

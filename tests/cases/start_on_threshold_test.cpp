@@ -3,6 +3,7 @@
 
 #include "case_runs.hpp"
 #include "number_text.hpp"
+#include "small_structures.hpp"
 
 namespace springfold::io {
 namespace {
@@ -122,20 +123,9 @@ TEST(StartOnAThreshold, OfTwoSpringsAtOnceHasOneSwitching) {
 /// A strut that leans against its hinge, which carries to one side alone and stands on that threshold without a load,
 /// held by a guy.
 std::string leaning_strut(const std::string& control, double load_from) {
-  return "[parameters]\npsi = " + number(load_from) + R"toml(
-t0 = 0.1756
-[[body]]
-name = "tip"
-task_space = "xy"
-pose = ["sin(t0)", "cos(t0)"]
-[[chain]]
-name = "strut"
-elements = [
-  { joint = "revolute", axis = "-z", name = "hinge", role = "preloaded", initial = "t0", spring = { law = "one_sided", stiffness = 1.1708, from = "t0" } },
-  { joint = "prismatic", axis = "y", name = "along", role = "virtual", stiffness = 25.1978 },
-  { rigid = [0, 1] },
-]
-[[spring]]
+  return "[parameters]\npsi = " + number(load_from) + "\nt0 = 0.1756\n" +
+         strut_that_gives(R"({ law = "one_sided", stiffness = 1.1708, from = "t0" })", "25.1978") +
+         R"toml([[spring]]
 name = "guy"
 from_at = [-1.0491, 0]
 to = "tip"
