@@ -372,7 +372,9 @@ bool examine_turn(const TestedStep& arc, const ZeroOf& turn, bool& regular,
   });
   for (Index m = std::min<Index>(near, 6); m > 0; --m) {
     auto candidate = candidate_at(arc, place, {turn}, m, false);
-    if (!candidate) continue;
+    // A branch that leads through a branch point without turning does not explain the turn: where modes nearly vanish
+    // beside a limit point, points aside of the curve are singular, as far aside as its equations are still met.
+    if (!candidate || candidate->turns == turn.touches) continue;
     candidate->odd = candidate->odd != candidate->turns;
     found.push_back(std::move(*candidate));
     regular = false;
