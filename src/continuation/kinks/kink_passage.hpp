@@ -42,7 +42,8 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
                   const Beside* arriving = nullptr);
 
 /// A curve does not begin to rest, or cease to, between kinks: a family that is told there is a flat stretch, on which
-/// lambda may turn several times within its rounding, and becomes unresolved; so does a short one at an end of the curve.
+/// lambda may turn several times within its rounding, and becomes unresolved; so does a short one at an end of the
+/// curve.
 void settle_families(Curve& curve);
 
 /// The family that reaches as far as this point; nullptr where there is none.

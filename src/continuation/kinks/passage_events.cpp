@@ -99,8 +99,8 @@ bool rests_along(const Walker& walker, const CurvePoint& here, int direction) {
   return !points.empty() && have_rounding_for_rate(points) && same_level(walker, all);
 }
 
-/// Does lambda's rate rise clear of its rounding, smoothly, on both sides of a step? Then it does not stand still there,
-/// but turns, or almost does, however little of its rate is left.
+/// Does lambda's rate rise clear of its rounding, smoothly, on both sides of a step? Then it does not stand still
+/// there, but turns, or almost does, however little of its rate is left.
 bool rises_beside(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
                   double noise) {
   const auto wide = widened(walker, from, to, noise);
