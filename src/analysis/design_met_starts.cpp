@@ -31,19 +31,19 @@ FoundDesign DesignSearch::along_jump(FoundDesign design, const JumpEnd& end) {
 }
 
 /// The least slope of paths that are to climb all the way jumps where branches cross: a search by derivatives steps
-/// over that, to the smooth boundary of other designs, or none. Where such searches lead to no design at all, as their
-/// requirements jump at the edge of a small set that none of them begins in, it is not said that there is none before
-/// these places are looked at.
-std::vector<DesignSearch::Candidate> DesignSearch::met_starts(bool is_met) {
+/// over that, to the smooth boundary of other designs, or none. At a bound a set may begin that is too small for any
+/// start, and at whose edge a requirement jumps: the bounds are looked at whatever was found, so that more starts lead
+/// to no worse answer.
+std::vector<DesignSearch::Candidate> DesignSearch::met_starts() {
   std::vector<Candidate> list;
   const std::vector<Way> ways = first_ways();
-  if (is_met && std::find(ways.begin(), ways.end(), Way::climbing) == ways.end()) return list;
+  const bool climbs = std::find(ways.begin(), ways.end(), Way::climbing) != ways.end();
   const Vector none = Vector::Zero(low_.size());
   std::vector<Vector> places;
   for (Index i = 0; i < low_.size(); ++i)
     for (const double bound : {low_[i], high_[i]})
       places.emplace_back(bound * Vector::Unit(low_.size(), i));
-  for (int k = 1; k < study_.design.starts; ++k) places.push_back(start(k));
+  for (int k = 1; climbs && k < study_.design.starts; ++k) places.push_back(start(k));
   const JumpProblem problem = jump_problem(ways);
   for (const Vector& from : places)
     if (!stopped_ && holds(nearest(from, ways, {})))

@@ -318,7 +318,7 @@ FoundDesign DesignSearch::best_of(const std::vector<Candidate>& list) {
     return best.status != DesignStatus::met ||
            size_of(than.changes) < size_of(best.changes) * (1 - same_size);
   };
-  const auto met = met_starts(best.status == DesignStatus::met);
+  const auto met = met_starts();
   for (const Candidate* one : promising(met)) {
     if (stopped_) break;
     take(followed_to_jump(*one, ends));

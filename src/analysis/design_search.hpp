@@ -81,12 +81,13 @@ class DesignSearch {
     std::vector<Vector> least{};   ///< of those along the boundary
   };
   std::optional<FoundDesign> followed(const Candidate& from, KnownEnds& known);
-  /// Designs that searches by derivatives do not come to: starts that meet the requirements, and bounds of one
-  /// parameter alone, drawn back roughly. @param is_met others lead to a design: only such as may hide a nearer one
-  std::vector<Candidate> met_starts(bool is_met);
+  /// Designs that searches by derivatives do not come to: bounds of one parameter alone that meet the requirements,
+  /// and of paths that are to climb starts that do, drawn back roughly.
+  std::vector<Candidate> met_starts();
   JumpProblem jump_problem(const std::vector<Way>& ways);
   FoundDesign along_jump(FoundDesign design, const JumpEnd& end);
   std::optional<FoundDesign> followed_to_jump(const Candidate& from, KnownEnds& known);
+  /// The last design on the straight way to the case.
   FoundDesign drawn_to_case(const Candidate& from);
   /// What decides an answer: see design_conditions.cpp.
   struct Conditions;

@@ -12,7 +12,8 @@ namespace {
 /// Two bars and a cable from above that is slack at the start by `slack`, and becomes active at the length lc.
 std::string truss_with_cable(double slack, const std::string& control, const std::string& study) {
   const double length = std::hypot(0.6, 0.5);
-  return "[parameters]\nlc = " + std::to_string(length + slack) + supports_and_apex("a", "0.5") +
+  return "[parameters]\nlc = " + std::to_string(length + slack) + "\n" +
+         supports_and_apex("a", "0.5") +
          R"toml([[bar]]
 from = "l"
 to = "a"

@@ -241,11 +241,8 @@ Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progre
 void settle_families(Curve& curve) {
   constexpr double certain = 10 * level_reach;  // longer than any inflection stays flat to rounding
   for (Hit& hit : curve.hits) {
-    if (hit.kind != HitKind::family) continue;
+    if (hit.kind != HitKind::family || hit.s_after - hit.s_before >= certain) continue;
     if (kink_at(curve, hit.s_before) || kink_at(curve, hit.s_after)) continue;
-    const bool is_open =
-        hit.s_before <= one_place || hit.s_after >= curve.points.back().s - one_place;
-    if (is_open && hit.s_after - hit.s_before >= certain) continue;
     hit.kind = HitKind::unresolved;
     hit.name = "unresolved: lambda stands still to rounding, it may turn here several times";
   }

@@ -41,9 +41,8 @@ CurvePoint point_on_ray(const Walker& walker, const CurvePoint& at, const Ray& r
 Outcome pass_kink(const Walker& walker, const KinkSearch& kink, Progress& progress, Curve& curve,
                   const Beside* arriving = nullptr);
 
-/// A curve does not begin to rest, or cease to, between kinks: a family that is told there is a flat stretch, on which
-/// lambda may turn several times within its rounding, and becomes unresolved; so does a short one at an end of the
-/// curve.
+/// A short family that does not begin at a kink may as well be a flat stretch on which lambda turns
+/// several times within its rounding: it becomes unresolved.
 void settle_families(Curve& curve);
 
 /// The family that reaches as far as this point; nullptr where there is none.

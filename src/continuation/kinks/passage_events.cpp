@@ -31,12 +31,6 @@ double freedom_of_rate(const Walker& walker, const CurvePoint& p) {
   return at ? rate_error(extended_matrix(at->at, walker.weights, p.tangent), 1) : 0;
 }
 
-/// What rounding of the equations' derivatives makes of lambda's rate.
-double noise_of_rate_at(const Walker& walker, const CurvePoint& p) {
-  const LinearisedPoint* at = linearised_at(walker.problem, *walker.memory, p.x, p.lambda, p.piece);
-  return at ? rate_noise(extended_matrix(at->at, walker.weights, p.tangent)) : infinity;
-}
-
 /// Is lambda's rate zero, and lost in what the equations are solved to?
 bool is_flat(const Walker& walker, const CurvePoint& p) {
   const double error =
@@ -69,44 +63,32 @@ std::optional<CurvePoint> finest_point_at(const Walker& walker, const CurvePoint
   return point ? point : point_at(walker, from, ds);
 }
 
-/// Points at equal distances along the curve, solved to rounding; none where it cannot be followed.
-std::vector<CurvePoint> points_along(const Walker& walker, const CurvePoint& here, double way) {
-  constexpr int intervals = 12;
-  std::vector<CurvePoint> points;
-  for (int i = 1; i <= intervals; ++i) {
-    auto next = finest_point_at(walker, here, i * way / intervals);
-    if (!next) return {};
-    points.push_back(std::move(*next));
-  }
-  return points;
-}
-
-/// Is lambda's rate at these points nothing but rounding?
-bool have_rounding_for_rate(const std::vector<CurvePoint>& points) {
-  std::vector<double> rates;
-  for (const CurvePoint& p : points) rates.push_back(p.tangent.dlambda);
-  return are_nothing_but_rounding(std::move(rates));
-}
-
 /// Does lambda stand still along `level_reach` from here, to one side?
 bool rests_along(const Walker& walker, const CurvePoint& here, int direction) {
-  const std::vector<CurvePoint> points = points_along(walker, here, direction * level_reach);
-  std::vector<const CurvePoint*> all{&here};
-  for (const CurvePoint& p : points) {
-    if (!is_flat(walker, p)) return false;
-    all.push_back(&p);
+  constexpr int intervals = 12;
+  std::vector<CurvePoint> points;
+  std::vector<double> rates;
+  for (int i = 1; i <= intervals; ++i) {
+    const auto next = finest_point_at(walker, here, direction * i * level_reach / intervals);
+    if (!next || !is_flat(walker, *next)) return false;
+    points.push_back(*next);
+    rates.push_back(next->tangent.dlambda);
   }
-  return !points.empty() && have_rounding_for_rate(points) && same_level(walker, all);
+  std::vector<const CurvePoint*> all{&here};
+  for (const CurvePoint& p : points) all.push_back(&p);
+  return are_nothing_but_rounding(std::move(rates)) && same_level(walker, all);
 }
 
-/// Does lambda's rate rise clear of its rounding, smoothly, on both sides of a step? Then it does not stand still
-/// there, but turns, or almost does, however little of its rate is left.
-bool rises_beside(const Walker& walker, const CurvePoint& from, const CurvePoint& to,
-                  double noise) {
-  const auto wide = widened(walker, from, to, noise);
-  if (!wide) return false;
-  const auto points = points_along(walker, wide->from, wide->to.s - wide->from.s);
-  return points.empty() || !have_rounding_for_rate(points);
+/// Do the equations know lambda worse here than a little away? Beside stiff members they know it badly all along a
+/// curve.
+bool is_beside_singular(const Walker& walker, const CurvePoint& here) {
+  const double freedom = freedom_of_rate(walker, here);
+  if (!(negligible_share * freedom > 1)) return false;
+  for (const int side : {-1, 1})
+    if (const auto away = point_at(walker, here, side * level_reach);
+        away && freedom_of_rate(walker, *away) < near_share * freedom)
+      return true;
+  return false;
 }
 
 /// Does lambda stand still beside a singular point on a longer way than any inflection stays flat? The equations hardly
@@ -115,10 +97,9 @@ bool rises_beside(const Walker& walker, const CurvePoint& from, const CurvePoint
 /// lie on either.
 bool rests_beside_singular(const Walker& walker, const CurvePoint& here, const CurvePoint& end) {
   const double rate = std::max(std::abs(here.tangent.dlambda), std::abs(end.tangent.dlambda));
-  return rate <= flat_rate && negligible_share * freedom_of_rate(walker, here) > 1 &&
-         is_flat(walker, here) && is_flat(walker, end) &&
-         (rests_along(walker, here, 1) || rests_along(walker, here, -1)) &&
-         !rises_beside(walker, here, end, noise_of_rate_at(walker, here));
+  return rate <= flat_rate && is_flat(walker, here) && is_flat(walker, end) &&
+         is_beside_singular(walker, here) &&
+         (rests_along(walker, here, 1) || rests_along(walker, here, -1));
 }
 
 /// Has lambda been seen to stand still?
@@ -128,32 +109,25 @@ bool seen_standing_still(const Walker& walker, const Progress& progress, const C
          rests_beside_singular(walker, progress.here, end);
 }
 
-/// Does lambda, which has been seen to stand still, do so along this step, too? What the equations are solved to may
-/// leave it some room: a rate that is clear of its rounding is one of a curve that is no longer level.
-bool still_stands(const Walker& walker, const CurvePoint& from, const CurvePoint* middle,
-                  const CurvePoint& to) {
-  const double length = to.s - from.s;
-  const auto inside = middle ? std::nullopt : point_at(walker, from, uneven_share(4) * length);
-  if (!middle && inside) middle = &*inside;
-  if (!middle || !same_level(walker, {&from, middle, &to})) return false;
-  double rate = 0;
-  for (const CurvePoint* p : {&from, middle, &to})
-    rate = std::max(rate, std::abs(p->tangent.dlambda));
-  if (rate <= clear_of_rounding * noise_of_rate_at(walker, from)) return true;
-  const auto points = points_along(walker, from, length);
-  return points.empty() || have_rounding_for_rate(points);
-}
-
 /// Does lambda stand still along the step? On a short one its rate must vanish to rounding, or an
-/// inflection would do; not so where it has been seen to stand still.
+/// inflection would do; not so where it has been seen to stand still. Where its rate rises clear of its rounding
+/// on both sides of a step, it does not stand still, but turns, or almost does.
 bool stands_still(const Walker& walker, const CurvePoint& from, const CurvePoint* middle,
                   const CurvePoint& to, bool seen) {
-  if (seen) return still_stands(walker, from, middle, to);
+  if (seen) {
+    const auto inside =
+        middle ? std::nullopt : point_at(walker, from, uneven_share(4) * (to.s - from.s));
+    if (!middle && inside) middle = &*inside;
+    return middle && same_level(walker, {&from, middle, &to});
+  }
   double rate = std::max(std::abs(from.tangent.dlambda), std::abs(to.tangent.dlambda));
   if (middle) rate = std::max(rate, std::abs(middle->tangent.dlambda));
   if (rate > (to.s - from.s >= level_reach ? residual_level : small_share * residual_level))
     return false;
-  const double noise = noise_of_rate_at(walker, from);
+  const LinearisedPoint* at =
+      linearised_at(walker.problem, *walker.memory, from.x, from.lambda, from.piece);
+  if (!at) return true;
+  const double noise = rate_noise(extended_matrix(at->at, walker.weights, from.tangent));
   return rate <= clear_of_rounding * noise && !widened(walker, from, to, noise);
 }
 
