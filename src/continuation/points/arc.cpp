@@ -38,10 +38,7 @@ bool ArcModel::interpolate(const Vector& weights, const CurvePoint& origin, Samp
         std::find(at_.begin(), known, t) != known)
       return false;
     at_[k] = at_[k + 1] = t;
-    for (const Index c : {i, i + 1}) {
-      c_.col(c).head(n) = p.x;
-      c_(n, c) = p.lambda;
-    }
+    for (const Index c : {i, i + 1}) c_.col(c) << p.x, p.lambda;
   }
   const auto column = [](std::size_t i) { return static_cast<Index>(i); };
   for (std::size_t k = 1; k < static_cast<std::size_t>(order); ++k)
@@ -61,13 +58,15 @@ bool ArcModel::interpolate(const Vector& weights, const CurvePoint& origin, Samp
 }
 
 void ArcModel::evaluate(double t, Vector& u, Vector& rate, Index left_out) const {
-  const Index last = c_.cols() - 1 - 2 * left_out;
+  const Index last = c_.cols() - 1 - 2 * left_out, n = c_.rows();
   u = c_.col(last);
-  rate.setZero(u.size());
+  rate.setZero(n);
   for (Index i = last - 1; i >= 0; --i) {
     const double away = t - at_[static_cast<std::size_t>(i)];
-    rate = u + away * rate;
-    u = c_.col(i) + away * u;
+    for (Index k = 0; k < n; ++k) {
+      rate[k] = u[k] + away * rate[k];
+      u[k] = c_(k, i) + away * u[k];
+    }
   }
 }
 
