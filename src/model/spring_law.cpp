@@ -134,7 +134,9 @@ CompiledSpring compile(const SpringLaw& law) {
   return std::visit(
       Overloaded{
           [](const LinearSpring& s) {
-            return from_slopes({{}, {s.stiffness}, s.free, 0});
+            CompiledSpring spring;
+            spring.segments.front() = {s.free, 0, s.stiffness};
+            return spring;
           },
           [](const OneSidedSpring& s) {
             const bool above = s.side == OneSidedSpring::Side::above;
