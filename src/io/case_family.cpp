@@ -250,7 +250,10 @@ class CaseNumbers {
 
   bool put_moved(std::size_t parameter, double value, model::Mechanism& mechanism) const {
     const MovedFormulas& moved = moved_by(parameter);
-    std::vector<double> numbers = mechanism_, own = own_, variables = parameters_.values;
+    thread_local std::vector<double> numbers, own, variables;  // for their memory
+    numbers = mechanism_;
+    own = own_;
+    variables = parameters_.values;
     if (!moved.parts || !all_usable_ || !put({parameter, value}, variables, numbers, own))
       return false;
     put_parts(*moved.parts, numbers, own, mechanism);
