@@ -253,23 +253,29 @@ Member* CaseCurves::member_at(double mu) const {
   if (without_start_.contains(mu)) return nullptr;
   look_for_line(mu);
   const Member& near = nearest(mu);
-  std::unique_ptr<Member> oldest;
+  decltype(recent_)::node_type oldest;  // its memory and that of its call are used again
+  std::list<double> call;
   if (recent_.size() >= members_kept) {
     const bool is_needed = calls_.back() == near.mu;
-    const auto old = recent_.find(is_needed ? *std::prev(calls_.end(), 2) : calls_.back());
-    oldest = std::move(old->second.member);
-    keep_start(*oldest);
-    calls_.erase(old->second.call);
-    recent_.erase(old);
+    oldest = recent_.extract(is_needed ? *std::prev(calls_.end(), 2) : calls_.back());
+    keep_start(*oldest.mapped().member);
+    call.splice(call.begin(), calls_, oldest.mapped().call);
   }
-  auto made = make(mu, &near, std::move(oldest));
+  auto made = make(mu, &near, oldest ? std::move(oldest.mapped().member) : nullptr);
   if (!made) {
     if (without_start_.size() >= members_kept) without_start_.clear();
     without_start_.emplace(mu, why_none_);
     return nullptr;
   }
-  calls_.push_front(mu);
-  return recent_.emplace(mu, Recent{std::move(made), calls_.begin()}).first->second.member.get();
+  if (!oldest) {
+    calls_.push_front(mu);
+    return recent_.emplace(mu, Recent{std::move(made), calls_.begin()}).first->second.member.get();
+  }
+  call.front() = mu;
+  calls_.splice(calls_.begin(), call);
+  oldest.key() = mu;
+  oldest.mapped().member = std::move(made);
+  return recent_.insert(std::move(oldest)).position->second.member.get();
 }
 
 std::string CaseCurves::why_none(double mu) const {
