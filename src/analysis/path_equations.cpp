@@ -7,6 +7,10 @@
 namespace springfold::analysis {
 namespace {
 
+/// Sums of so many products are the same numbers in whatever order: Eigen's general products, which may choose one, are
+/// long beside them.
+constexpr Index short_sum = 2;
+
 /// Constant plus lambda times rate, where there is a rate.
 void put_line(const Vector& start, double lambda, const Vector& rate, Vector& value) {
   value = start;
@@ -60,6 +64,8 @@ void PathProblem::add_motion(const Vector& v, Vector& z) const {
   z.head(t_) = v.head(t_);
   if (is_whole_)
     z.segment(t_, d_) += v.segment(t_, d_);
+  else if (free > 0 && free <= short_sum)
+    z.segment(t_, d_) += rule_.N.lazyProduct(v.segment(t_, free));
   else if (free > 0)
     z.segment(t_, d_).noalias() += rule_.N * v.segment(t_, free);
   z.tail(tail) = v.tail(tail);
@@ -106,6 +112,8 @@ void PathProblem::reduce_rows(const Vector& r, Vector& reduced) const {
   reduced.head(t_) = r.head(t_);
   if (is_whole_)
     reduced.segment(t_, d_) = r.segment(t_, d_);
+  else if (free > 0 && d_ <= short_sum)
+    reduced.segment(t_, free) = rule_.N.transpose().lazyProduct(r.segment(t_, d_));
   else if (free > 0)
     reduced.segment(t_, free).noalias() = rule_.N.transpose() * r.segment(t_, d_);
   reduced.tail(tail) = r.tail(tail);
@@ -122,11 +130,16 @@ void PathProblem::reduce_matrix(const Matrix& A, Matrix& reduced) const {
   const Index free = rule_.N.cols(), tail = system_.size - t_ - d_;
   columns_.resize(system_.size, plain_size_);
   columns_.leftCols(t_) = A.leftCols(t_);
-  if (free > 0) columns_.middleCols(t_, free).noalias() = A.middleCols(t_, d_) * rule_.N;
+  if (free > 0 && d_ <= short_sum)
+    columns_.middleCols(t_, free) = A.middleCols(t_, d_).lazyProduct(rule_.N);
+  else if (free > 0)
+    columns_.middleCols(t_, free).noalias() = A.middleCols(t_, d_) * rule_.N;
   columns_.rightCols(tail) = A.rightCols(tail);
   reduced.resize(plain_size_, plain_size_);
   reduced.topRows(t_) = columns_.topRows(t_);
-  if (free > 0)
+  if (free > 0 && d_ <= short_sum)
+    reduced.middleRows(t_, free) = rule_.N.transpose().lazyProduct(columns_.middleRows(t_, d_));
+  else if (free > 0)
     reduced.middleRows(t_, free).noalias() = rule_.N.transpose() * columns_.middleRows(t_, d_);
   reduced.bottomRows(tail) = columns_.bottomRows(tail);
 }
