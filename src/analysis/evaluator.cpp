@@ -28,6 +28,7 @@ void Evaluator::renew(const Study& study, const Scales& scales) {
   scratch_.tangent.clear();
   scratch_.determinant = 0;
   scratch_.stability = {};
+  assembled_.lambda = undefined;
   const auto body = static_cast<std::size_t>(study.body - 1);
   const statics::System& system = problem_.layout();
   first_pose_ = system.first_pose;
@@ -138,12 +139,16 @@ double Evaluator::value_at(const QuantityDefinition& q, const continuation::Curv
 }
 
 const Evaluator::Assembled* Evaluator::assemble(const continuation::CurvePoint& point) const {
-  return stages_ ? assemble_in_stages(point) : assemble_densely(point);
+  if (stages_) return assemble_in_stages(point);
+  const bool known = assembled_.lambda == point.lambda && assembled_.x == point.x &&
+                     assembled_.piece == point.piece;
+  return known ? &scratch_ : assemble_densely(point);
 }
 
 const Evaluator::Assembled* Evaluator::assemble_densely(
     const continuation::CurvePoint& point) const {
   Assembled& at = scratch_;
+  assembled_.lambda = undefined;
   const statics::System& system = problem_.turned_to_pose(point.x, point.lambda, at.z);
   at.is_plain = &system == &problem_.system(point.lambda);
   problem_.put_inputs(point.lambda, at.inputs);
@@ -160,7 +165,16 @@ const Evaluator::Assembled* Evaluator::assemble_densely(
   }
   at.body = statics::body_stiffness(system, at.A, at.platform, problem_.rule().body,
                                     problem_.symmetric());
+  assembled_.x = point.x;
+  assembled_.lambda = point.lambda;
+  assembled_.piece = point.piece;
   return &at;
+}
+
+const Matrix* Evaluator::known_matrix(const Vector& x, double lambda, const Piece& piece) const {
+  const bool known = !stages_ && problem_.is_whole() && scratch_.is_plain &&
+                     assembled_.lambda == lambda && assembled_.x == x && assembled_.piece == piece;
+  return known ? &scratch_.A : nullptr;
 }
 
 double Evaluator::from_matrix(const QuantityDefinition& q, const continuation::CurvePoint& point,
@@ -273,12 +287,16 @@ RoundedRate Evaluator::computed_force_rate(const continuation::CurvePoint& point
   if (stages_) {
     rate = force_rate_in_stages(point, size);
   } else {
-    problem_.put_inputs(point.lambda, trial_.inputs);
-    if (!equilibrium_matrix(problem_.turned(point.x, point.lambda), point.piece,
-                            problem_.local(point.x, point.lambda), trial_.inputs, trial_.work,
-                            trial_.r, trial_.A))
-      return {undefined, 0};
-    const auto rows = trial_.A.middleRows(t_, d_);
+    const Matrix* A = problem_.known_matrix(point.x, point.lambda, point.piece);
+    if (A == nullptr) {
+      A = &trial_.A;
+      problem_.put_inputs(point.lambda, trial_.inputs);
+      if (!equilibrium_matrix(problem_.turned(point.x, point.lambda), point.piece,
+                              problem_.local(point.x, point.lambda), trial_.inputs, trial_.work,
+                              trial_.r, trial_.A))
+        return {undefined, 0};
+    }
+    const auto rows = A->middleRows(t_, d_);
     rate = conjugate_.dot(rows * problem_.local_rate(point.x, point.tangent.dx, dlambda));
     size = rows.norm();
   }

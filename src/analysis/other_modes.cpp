@@ -9,12 +9,16 @@ namespace springfold::analysis {
 namespace {
 
 /// As many as are negative once all are greater by what vanishes beside the largest.
+/// @param known  the matrix there, where it is known
 std::optional<double> unstable_modes(const PathProblem& problem,
-                                     const continuation::CurvePoint& point, const Piece& piece) {
+                                     const continuation::CurvePoint& point, const Piece& piece,
+                                     const Matrix* known) {
   constexpr double vanishing = 1e-9;
   continuation::Linearisation at;
-  if (!problem.symmetric() ||
-      !continuation::linearise_densely(problem, point.x, point.lambda, piece, at))
+  if (!problem.symmetric()) return std::nullopt;
+  if (known != nullptr)
+    at.dF_dx = *known;
+  else if (!continuation::linearise_densely(problem, point.x, point.lambda, piece, at))
     return std::nullopt;
   const double largest = at.dF_dx.cwiseAbs().colwise().sum().maxCoeff();
   at.dF_dx.diagonal().array() += vanishing * largest;
@@ -29,9 +33,10 @@ void count_other_modes(const Member& member, const continuation::CriticalStart& 
                        const continuation::CurvePoint& point, std::vector<double>& values) {
   using continuation::CriticalKind;
   if (of.kind == CriticalKind::zero) return;
-  auto count = unstable_modes(*member.problem, point, of.piece);
+  auto count = unstable_modes(*member.problem, point, of.piece,
+                              member.evaluator().known_matrix(point.x, point.lambda, of.piece));
   if (of.kind == CriticalKind::surface) {
-    const auto behind = unstable_modes(*member.problem, point, of.behind);
+    const auto behind = unstable_modes(*member.problem, point, of.behind, nullptr);
     count = count && behind ? std::optional{std::min(*count, *behind)} : std::nullopt;
   }
   if (!count) return;

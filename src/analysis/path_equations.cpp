@@ -248,17 +248,24 @@ bool PathProblem::equations(const Vector& y, double lambda, const Piece& piece, 
   if (rotations_.empty() && is_whole_)
     return equilibrium_matrix(present, piece, z_, inputs_, work_, F, dF_dy, by_commands) &&
            put_rate(y, lambda, piece, present, &dF_dy, dF_dlambda);
-  if (!equilibrium_matrix(present, piece, z_, inputs_, work_, r_, A_, by_commands) ||
-      !put_rate(y, lambda, piece, present, &A_, rate_))
+  newest_ = (newest_ + 1) % known_.size();
+  KnownMatrix& own = known_[newest_];
+  own.lambda = std::numeric_limits<double>::quiet_NaN();
+  Matrix& A = own.A;
+  if (!equilibrium_matrix(present, piece, z_, inputs_, work_, r_, A, by_commands) ||
+      !put_rate(y, lambda, piece, present, &A, rate_))
     return false;
+  own.y = y;
+  own.lambda = lambda;
+  own.piece = piece;
   reduce_residual(y, F);
   if (rotations_.empty()) {
-    reduce_matrix(A_, dF_dy);
+    reduce_matrix(A, dF_dy);
     reduce_rows(rate_, dF_dlambda);
     return true;
   }
   // dF/dy = T^T (dr/dv) T + second derivatives of T + the equation for the length of q.
-  reduce_matrix(A_, plain_);
+  reduce_matrix(A, plain_);
   put_quaternions(y, plain_, dF_dy);
   reduce_rows(rate_, v_);
   put_quaternions(y, v_, dF_dlambda);
@@ -270,6 +277,12 @@ bool PathProblem::equations(const Vector& y, double lambda, const Piece& piece, 
                                    2 * q * q.transpose();
   }
   return true;
+}
+
+const Matrix* PathProblem::known_matrix(const Vector& y, double lambda, const Piece& piece) const {
+  for (const KnownMatrix& known : known_)
+    if (known.lambda == lambda && known.y == y && known.piece == piece) return &known.A;
+  return nullptr;
 }
 
 bool PathProblem::second_along(const Vector& y, double lambda, const Piece& piece, const Vector& w,

@@ -43,6 +43,13 @@ void PathProblem::renew(const PathRule& rule) {
   find_stages();
   knows_second_ =
       !rule_.family && rotations_.empty() && !stages_ && has_second_derivatives(system_);
+  for (KnownMatrix& known : known_) {
+    known.lambda = std::numeric_limits<double>::quiet_NaN();
+    if (is_whole() || stages_) continue;
+    known.y.resize(size_);
+    known.piece.reserve(system_.switches.size());
+    known.A.resize(system_.size, system_.size);
+  }
 }
 
 /// All rotations of the other spatial bodies, and of the study's body if it turns as it likes: the

@@ -2,7 +2,9 @@
 // Private to analysis; everything here is dimensionless.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -131,6 +133,11 @@ class PathProblem {
   const statics::System& layout() const { return system_; }  ///< who stands where, at the start
   const PathRule& rule() const { return rule_; }
   Index closures() const { return system_.closure_count(); }
+  /// The matrix of the statics as equations() had it there, if that is one of the last places where it was asked and
+  /// some coordinates of the pose are given; nullptr otherwise. Valid until the next call.
+  const Matrix* known_matrix(const Vector& y, double lambda, const Piece& piece) const;
+  /// Are the unknowns of the path those of the statics, and its equations?
+  bool is_whole() const { return is_whole_ && rotations_.empty(); }
 
  private:
   void find_free_rotations();
@@ -172,7 +179,15 @@ class PathProblem {
   mutable statics::StateDirection along_{}, second_{};
   mutable Vector z_{}, v_{}, r_{}, rate_{}, F_{}, dz_{};
   Vector none_{};  ///< where commands do not move
-  mutable Matrix A_{}, dR_drho_{}, plain_{}, columns_{};
+  struct KnownMatrix {
+    Vector y{};
+    double lambda = std::numeric_limits<double>::quiet_NaN();
+    Piece piece{};
+    Matrix A{};
+  };
+  mutable std::array<KnownMatrix, 4> known_{};  ///< of a step's end and middle, and on the way
+  mutable std::size_t newest_ = 0;              ///< of these
+  mutable Matrix dR_drho_{}, plain_{}, columns_{};
   mutable std::vector<model::Mat3<double>> frames_{};
   mutable statics::SwitchGradient switch_gradient_{};
   mutable std::optional<statics::StageJacobians> stages_{};  ///< of long chains

@@ -138,6 +138,9 @@ class Evaluator {
   std::vector<Index> closure_ranks(const continuation::CurvePoint& point) const;
   /// K_ci of all chains, paper eq. (12); empty matrices where undefined.
   std::vector<Matrix> chain_stiffnesses(const continuation::CurvePoint& point) const;
+  /// The matrix of the path's equations, if the last row was of this place and these are those of the statics; nullptr
+  /// otherwise. Valid until the next call.
+  const Matrix* known_matrix(const Vector& x, double lambda, const Piece& piece) const;
 
   /// Where springs rest at their threshold: the number of unstable modes as all pieces together say.
   /// @param kind     index, index_pose or index_force
@@ -212,8 +215,14 @@ class Evaluator {
   Index t_ = 0, d_ = 0;          ///< pose of the study's body in z
   Vector measured_{};            ///< d entries
   Vector conjugate_{};           ///< d entries: direction with which the force is conjugate
-  mutable Assembled scratch_{};  ///< kept for its memory
-  mutable State state_{};        ///< likewise
+  mutable Assembled scratch_{};  ///< of the place that was asked for last
+  struct Place {
+    Vector x{};
+    double lambda = std::numeric_limits<double>::quiet_NaN();
+    Piece piece{};
+  };
+  mutable Place assembled_{};  ///< that place, where no chain is long
+  mutable State state_{};      ///< likewise
   struct Equilibrium {
     Vector z{}, r{};
     Matrix A{};
