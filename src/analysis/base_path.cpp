@@ -197,6 +197,11 @@ BasePath base_path(const Member& member, const Observer& observer, const PathOpt
   return path;
 }
 
+double growth_of_lambda_unit(const Member& base, double lambda_unit) {
+  const bool in_parts = std::isfinite(base.setup.rule.lambda_measure.linear);
+  return in_parts ? 1 : largest_change_of_lambda_unit / lambda_unit;
+}
+
 CurvesWithPath curves_with_path(const Study& study, std::size_t parameter, bool forward_only,
                                 const Observer& observer) {
   CurvesWithPath result;
@@ -204,10 +209,9 @@ CurvesWithPath curves_with_path(const Study& study, std::size_t parameter, bool 
     result.curves = std::make_unique<CaseCurves>(study, parameter, result.lambda_unit);
     if (!result.curves->base().report.found) return result;
     const Member& base = result.curves->base();
-    const bool in_parts = std::isfinite(base.setup.rule.lambda_measure.linear);
-    const double largest = in_parts ? 1 : largest_change_of_lambda_unit / result.lambda_unit;
-    result.path =
-        base_path(base, observer, {.forward_only = forward_only, .largest_unit = largest});
+    result.path = base_path(base, observer,
+                            {.forward_only = forward_only,
+                             .largest_unit = growth_of_lambda_unit(base, result.lambda_unit)});
     if (!(result.path.lambda_unit > 1)) return result;
     result.lambda_unit *= result.path.lambda_unit;
   }

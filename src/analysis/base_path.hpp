@@ -53,6 +53,9 @@ struct PathOptions {
 /// The branch through the start. Special points that end it are left out.
 BasePath base_path(const Member& member, const Observer& observer, const PathOptions& options = {});
 
+/// PathOptions::largest_unit of a path whose unit of lambda has grown by this factor before.
+double growth_of_lambda_unit(const Member& base, double lambda_unit);
+
 /// The curves of a study, and the path of the case's own one.
 struct CurvesWithPath {
   std::unique_ptr<CaseCurves> curves{};

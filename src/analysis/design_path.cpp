@@ -131,20 +131,34 @@ std::optional<double> jump_of_start(const DesignCase& of, const Vector& values, 
 }
 
 DesignPath::DesignPath(const DesignCase& of, const Vector& values, const Vector& pose)
-    : slope_units_{of.slope_units} {
-  Study study = of.study;
-  study.critical.cases = neighbours(of, values, pose);
-  for (std::size_t i = 0; i < of.numbers.size(); ++i) {
+    : of_{of}, study_{of.study} {
+  study_.critical.cases = neighbours(of, values, pose);
+  begin(1);
+}
+
+void DesignPath::begin(double lambda_unit) {
+  families_.clear();
+  for (std::size_t i = 0; i < of_.numbers.size(); ++i) {
     // The family's unit of the parameter is that on which the case varies with it.
-    study.critical.parameter = study.critical.cases->names[of.numbers[i]];
-    study.critical.low = 0;
-    study.critical.high = of.sizes[i];
-    families_.push_back(std::make_unique<CaseCurves>(study, of.numbers[i]));
+    study_.critical.parameter = study_.critical.cases->names[of_.numbers[i]];
+    study_.critical.low = 0;
+    study_.critical.high = of_.sizes[i];
+    families_.push_back(std::make_unique<CaseCurves>(study_, of_.numbers[i], lambda_unit));
     if (!families_.back()->base().report.found) break;
   }
 }
 
-void DesignPath::trace(const Observer& observer) { path_ = base_path(base(), observer); }
+/// Where designs lie on a limit, the start of the path is beside a limit point, and its response no measure.
+void DesignPath::trace(const Observer& observer) {
+  double unit = 1;
+  for (;;) {
+    path_ = base_path(base(), observer, {.largest_unit = growth_of_lambda_unit(base(), unit)});
+    if (!(path_.lambda_unit > 1)) return;
+    unit *= path_.lambda_unit;
+    begin(unit);
+    if (!has_start()) return;
+  }
+}
 
 std::string doubt_of(const BasePath& path) {
   if (!path.problem.empty()) return path.problem;
@@ -201,7 +215,7 @@ std::optional<Measure> DesignPath::at_value(const std::string& name, const std::
 
 std::optional<Measure> DesignPath::least_slope(const BasePath& path, const std::string& quantity,
                                                double end, Climb climb) const {
-  const auto least = analysis::least_slope(base(), path, quantity, end, slope_units_, climb);
+  const auto least = analysis::least_slope(base(), path, quantity, end, of_.slope_units, climb);
   if (!least) return std::nullopt;
   return with_rates(least->value, [&](const CaseCurves& curves) -> std::optional<Vector> {
     const auto rate = rate_of(curves, curves.base(), *least);

@@ -40,7 +40,7 @@ class DesignPath {
  public:
   /// Solves the start. @param pose  in place of start.pose; empty: the study's own
   DesignPath(const DesignCase& of, const Vector& values, const Vector& pose = {});
-  /// Traces the path towards growing lambda.
+  /// Traces the path towards growing lambda, in a unit of lambda that serves all of it.
   void trace(const Observer& observer);
 
   bool has_start() const { return families_.front()->base().report.found; }
@@ -60,11 +60,13 @@ class DesignPath {
                                      Climb climb) const;
 
  private:
+  void begin(double lambda_unit);
   std::size_t column(const std::string& name) const;
   Measure with_rates(double value,
                      const std::function<std::optional<Vector>(const CaseCurves&)>& of) const;
 
-  SlopeUnits slope_units_{};
+  const DesignCase& of_;
+  Study study_;  ///< of the neighbours
   std::vector<std::unique_ptr<CaseCurves>> families_{};
   BasePath path_{};
 };
