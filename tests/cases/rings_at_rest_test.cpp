@@ -15,6 +15,8 @@
 namespace springfold::io {
 namespace {
 
+using std::numbers::pi;
+
 using analysis::EventKind;
 using analysis::StudyResult;
 
@@ -46,7 +48,7 @@ elements = [
 ]
 )";
   for (int i = 0; i < n; ++i) {
-    const double angle = first + 2 * std::numbers::pi * i / n;
+    const double angle = first + 2 * pi * i / n;
     text +=
         "[[spring]]\nname = \"c" + std::to_string(i) + "\"\nfrom_at = [" + number(std::cos(angle)) +
         ", " + number(std::sin(angle)) +
@@ -85,7 +87,7 @@ TEST(RingsAtRest, BranchesLeaveAlongEachCableAndHalfWayBetween) {
     const auto loads = lambdas(result, EventKind::branching_kink);
     ASSERT_EQ(loads.size(), 1u);
     EXPECT_NEAR(loads[0], foot + n / 8.0, 1e-10);
-    const auto off = off_directions(result, "KB1", first, std::numbers::pi / n);
+    const auto off = off_directions(result, "KB1", first, pi / n);
     EXPECT_EQ(off.size(), 2u * static_cast<std::size_t>(n));
     for (const double angle : off) EXPECT_NEAR(angle, 0, 0.1);
   }
@@ -102,8 +104,8 @@ TEST(RingsAtRest, BetweenTwoCablesTheMastLeansAcrossThemFirst) {
     EXPECT_NEAR(loads[0], foot_spring, 1e-10);
     EXPECT_NEAR(loads[1], foot_spring + 0.5, 1e-10);
     for (const std::string label : {"KB1", "KB2"}) {
-      const double along = label == "KB1" ? first + std::numbers::pi / 2 : first;
-      const auto off = off_directions(result, label, along, std::numbers::pi);
+      const double along = label == "KB1" ? first + pi / 2 : first;
+      const auto off = off_directions(result, label, along, pi);
       EXPECT_EQ(off.size(), 2u);
       for (const double angle : off) EXPECT_NEAR(angle, 0, 0.1);
     }
@@ -117,7 +119,6 @@ TEST(RingsAtRest, BesideOneCableOfAJointAsStiffInAllDirectionsEveryWayIsThereOnc
     double first = 0;
     std::vector<double> angles{};
   };
-  constexpr double pi = std::numbers::pi;
   const Leans cases[] = {{0.0, {-pi / 2, -pi / 4, 0, pi / 4, pi / 2}},
                          {0.3, {0.3 - pi / 2, -pi / 4, 0, pi / 4, pi / 2}}};
   for (const auto& [first, angles] : cases) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -14,6 +15,8 @@
 
 namespace springfold::io {
 namespace {
+
+using std::numbers::pi;
 
 using analysis::EventKind;
 using analysis::StudyResult;
@@ -32,7 +35,6 @@ std::string hexagon(double slack) {
   for (const auto& [name, px, py] : {std::tuple{"n2", x + 1, y}, {"n4", x + 1, -y}, {"n5", x, -y}})
     text += std::string("[[body]]\nname = \"") + name + "\"\ntask_space = \"xy\"\npose = [" +
             number(px) + ", " + number(py) + "]\n";
-  const double pi = 3.14159265358979323846;
   const std::string end = "end";
   for (const Cable& c : {Cable{"base", "n1", h},
                          {"n1", "n2", 0},
