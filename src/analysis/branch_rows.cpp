@@ -8,6 +8,7 @@
 #include "branch_entries.hpp"
 #include "closure_rank.hpp"
 #include "force_events.hpp"
+#include "level_force.hpp"
 #include "merged_hits.hpp"
 #include "null_modes.hpp"
 #include "row_indices.hpp"
@@ -257,6 +258,7 @@ BranchRows join(BranchSource source, const Evaluator& evaluator,
     branch.events.insert(before,
                          end_event(entries.back(), end, branch.forward, evaluator, quantities));
   }
+  tell_level_extrema(entries, evaluator, branch);
   refuse_contradictions(entries, evaluator, branch);
   if (source.is_thinned || !is_whole)
     branch.forward = {

@@ -15,7 +15,7 @@ namespace {
 /// Rows at which an eigenvalue passes zero, so that every count of a matrix there is one of rounding.
 struct CriticalRows {
   std::vector<bool> here{};
-  std::vector<bool> first_of_two{}, second_of_two{};  ///< rows of one place
+  std::vector<bool> first_of_two{}, second_of_two{};  ///< rows of one place, of any event
 };
 
 /// Beside a spring that rests an eigenvalue of one of the pieces vanishes where half-branches leave.
@@ -27,11 +27,11 @@ CriticalRows critical_rows(const Branch& branch) {
   const std::vector<bool> none(branch.samples.size(), false);
   CriticalRows rows{none, none, none};
   for (const Event& event : branch.events) {
+    const bool two = has_two_rows(branch, event);
+    if (two) rows.first_of_two[event.row] = rows.second_of_two[event.row + 1] = true;
     if (!is_critical(event.kind)) continue;
     rows.here[event.row] = true;
-    if (!has_two_rows(branch, event)) continue;
-    rows.here[event.row + 1] = true;
-    rows.first_of_two[event.row] = rows.second_of_two[event.row + 1] = true;
+    if (two) rows.here[event.row + 1] = true;
   }
   return rows;
 }
@@ -131,17 +131,31 @@ void settle_resting(Branch& branch, const std::vector<std::size_t>& rows) {
   branch.resting = std::move(settled);
 }
 
-/// The smaller of the counts before and behind a row.
+/// The smaller of the counts before and behind a row, or the one that is known: along a family none is.
 double smaller_beside(const Branch& branch, const CriticalRows& rows, std::size_t row,
                       std::size_t quantity) {
   const std::size_t before = rows.second_of_two[row] ? row - 1 : row;
   double value = before > 0 ? branch.samples[before - 1].values[quantity] : std::nan("");
   for (std::size_t k = row + (rows.first_of_two[row] ? 2 : 1); k < branch.samples.size(); ++k) {
     const double next = branch.samples[k].values[quantity];
-    if (std::isnan(next)) continue;
-    return std::isnan(value) ? next : std::min(value, next);
+    const bool is_special = !branch.samples[k].event.empty();
+    if (std::isnan(next) && is_special) continue;
+    return std::isnan(value) ? next : std::fmin(value, next);
   }
   return value;
+}
+
+/// The count of the side of a switching to which a row belongs, which its own matrix does not tell: that of the row
+/// next to it on this side. Along a family none is known.
+double count_of_side(const Branch& branch, const CriticalRows& rows, std::size_t row,
+                     std::size_t quantity) {
+  const auto& samples = branch.samples;
+  if (rows.first_of_two[row]) return samples[row - 1].values[quantity];
+  std::size_t next = row + 1;
+  while (next + 1 < samples.size() && std::isnan(samples[next].values[quantity]) &&
+         !samples[next].event.empty())
+    ++next;
+  return samples[next].values[quantity];
 }
 
 /// A count that is taken from the rows beside means what it means there.
@@ -192,7 +206,12 @@ void fill_indices(Branch& branch, const std::vector<QuantityDefinition>& quantit
     for (std::size_t i = 0; i < branch.samples.size(); ++i) {
       double& value = branch.samples[i].values[q];
       const bool unknown = std::isnan(value) && !branch.samples[i].event.empty();
-      if (unknown || at_zero[i]) value = smaller_beside(branch, critical, i, q);
+      const bool has_side = (critical.first_of_two[i] && i > 0) ||
+                            (critical.second_of_two[i] && i + 1 < branch.samples.size());
+      if (unknown && has_side && !at_zero[i])
+        value = count_of_side(branch, critical, i, q);
+      else if (unknown || at_zero[i])
+        value = smaller_beside(branch, critical, i, q);
     }
   }
   rest_as_neighbours(branch, critical.here);
