@@ -221,6 +221,8 @@ Leg follow_leg(const CommandSetup& setup, const TargetPath& path, int number,
   } else if (curve.stop == continuation::StopReason::observer && !leg.events.empty() &&
              leg.events.back().kind == EventKind::branch_point) {
     leg.lost = turn_at_branch_point(setup, from, leg.events.back());
+  } else if (curve.stop == continuation::StopReason::observer && !leg.events.empty()) {
+    leg.lost = "no commands lead further along the path";
   } else {
     leg.lost = stop_of(curve).reason;
     leg.lost_place = problem.place(curve.points.back().lambda);

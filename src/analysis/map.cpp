@@ -17,6 +17,7 @@
 #include "branch_rows.hpp"
 #include "critical_load.hpp"
 #include "grow_diagram.hpp"
+#include "not_held.hpp"
 #include "run_kinds.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
 
@@ -106,9 +107,12 @@ class NodeMaker {
   void fill(const CommandSetup& setup, const Vector& pose, statics::KinematicInverse& near,
             Sample& sample) const {
     CommandedState state;
-    sample.status = solve(setup, pose, near, state);
-    sample.state = NodeState::outside;
-    if (!sample.status.empty()) return;
+    const NotHeld failed = solve(setup, pose, near, state);
+    if (!failed.why.empty()) {
+      sample.status = failed.is_shown ? failed.why : undecided(failed.why);
+      sample.state = failed.is_shown ? NodeState::outside : NodeState::undecided;
+      return;
+    }
     const CommandedValues at = command_values(setup, study_.map.directions, state);
     sample.values.insert(sample.values.end(), at.values.begin(), at.values.end());
     sample.piece = piece_text(setup.system, state.piece);
@@ -127,9 +131,14 @@ class NodeMaker {
     sample.state = NodeState::load_not_found;
   }
 
+  static std::string undecided(const std::string& why) {
+    const std::string not_held = "not held: ";
+    return "undecided: " + (why.starts_with(not_held) ? why.substr(not_held.size()) : why);
+  }
+
   /// The node's equilibrium; says why there is none.
-  std::string solve(const CommandSetup& setup, const Vector& pose, statics::KinematicInverse& near,
-                    CommandedState& state) const {
+  NotHeld solve(const CommandSetup& setup, const Vector& pose, statics::KinematicInverse& near,
+                CommandedState& state) const {
     if (study_.map.command == NodeCommand::given) return settle_from_guess(setup, pose, state);
     const Vector scaled = pose.cwiseQuotient(setup.pose_scale);
     const Vector target = scaled(setup.task.prescribed);
@@ -138,54 +147,56 @@ class NodeMaker {
     const bool kinetostatic = study_.map.command == NodeCommand::kinetostatic;
     if (!kinetostatic && plain.closed) return settle(setup, std::move(plain), state);
     if (!kinetostatic)
-      return shortage(setup, {.status = statics::ControlStatus::unreachable, .plain = plain});
+      return {shortage(setup, {.status = statics::ControlStatus::unreachable, .plain = plain}),
+              true};
     statics::ControlProblem problem{
         .task = setup.task, .target = target, .W = setup.W, .z = plain.z, .rho = plain.rho};
     if (study_.command.method == CommandMethod::paper)
       problem.method = statics::ControlMethod::paper;
     const statics::ControlResult found =
         kinetostatic_control(setup.system, problem, std::move(plain));
-    if (found.status != statics::ControlStatus::converged) return shortage(setup, found);
+    if (found.status != statics::ControlStatus::converged)
+      return why_not_held(setup, target, setup.W, found);
     state = {.z = found.z,
              .inputs = found.inputs,
              .piece = found.piece,
              .plain = found.plain,
              .iterations = static_cast<double>(found.iterations)};
-    return "";
+    return {};
   }
 
   /// Commands of plain inverse kinematics: the platform settles nearby.
-  static std::string settle(const CommandSetup& setup, statics::KinematicInverse plain,
-                            CommandedState& state) {
+  static NotHeld settle(const CommandSetup& setup, statics::KinematicInverse plain,
+                        CommandedState& state) {
     statics::ControlSolver solver = equilibrium_solver(setup.system, plain.z, plain.rho);
     solver.inputs.W = setup.W;
     if (!solve_control_globally(setup.system, solver))
-      return "not held: no equilibrium near the node with these commands";
+      return {"not held: no equilibrium near the node with these commands"};
     state = {.z = solver.z,
              .inputs = solver.inputs,
              .piece = solver.piece,
              .plain = std::move(plain),
              .iterations = static_cast<double>(solver.iterations)};
-    return "";
+    return {};
   }
 
-  std::string settle_from_guess(const CommandSetup& setup, const Vector& pose,
-                                CommandedState& state) const {
+  NotHeld settle_from_guess(const CommandSetup& setup, const Vector& pose,
+                            CommandedState& state) const {
     statics::StartProblem start{.body = study_.body};
     start.z = statics::guess(setup.system);
     start.z.segment(setup.t, setup.d) = pose.cwiseQuotient(setup.pose_scale);
     start.inputs = {setup.system.commands, setup.W};
     const statics::FirstEquilibrium found = first_equilibrium(setup.system, start);
     if (found.status == statics::StartStatus::no_assembly)
-      return "unreachable: the chains cannot be closed";
+      return {"unreachable: the chains cannot be closed", true};
     if (found.status != statics::StartStatus::found)
-      return "not held: no equilibrium found with these commands";
+      return {"not held: no equilibrium found with these commands"};
     state = {.z = found.z, .inputs = found.inputs, .piece = found.piece};
     state.iterations = found.iterations;
     const Vector target = found.z.segment(setup.t, setup.d)(setup.task.prescribed);
     state.plain =
         kinematic_inverse(setup.system, setup.task, target, found.z, setup.system.commands);
-    return "";
+    return {};
   }
 
   const Study& study_;
@@ -323,9 +334,22 @@ std::string census(const std::vector<Sample>& rows) {
   };
   add(number_of(NodeState::unstable) + number_of(NodeState::critical), "held but not stable");
   add(number_of(NodeState::outside), "outside of the workspace");
+  add(number_of(NodeState::undecided), "undecided");
   add(number_of(NodeState::load_not_found), "without critical load: not found");
   add(number_of(NodeState::not_computed), "not computed");
   return text;
+}
+
+void add_doubts(StudyResult& result) {
+  const auto& rows = result.branches.front().samples;
+  const auto add = [&](NodeState state, const std::string& before, const std::string& after) {
+    const auto count = std::count_if(rows.begin(), rows.end(),
+                                     [state](const Sample& row) { return row.state == state; });
+    if (count > 0) result.doubts.push_back(before + std::to_string(count) + after);
+  };
+  add(NodeState::load_not_found, "the critical load was not found at ", " nodes: see their status");
+  add(NodeState::undecided, "no equilibrium was found at ",
+      " nodes, which does not show that there is none: see their status");
 }
 
 }  // namespace
@@ -362,12 +386,7 @@ StudyResult run_map(const model::Mechanism& mechanism, const Study& study, const
   branch.backward = {"first node", true};
   branch.forward = {census(branch.samples), missing == 0};
   if (missing > 0) branch.forward.reason = "interrupted: " + branch.forward.reason;
-  const auto doubtful =
-      std::count_if(branch.samples.begin(), branch.samples.end(),
-                    [](const Sample& sample) { return sample.state == NodeState::load_not_found; });
-  if (doubtful > 0)
-    result.doubts.push_back("the critical load was not found at " + std::to_string(doubtful) +
-                            " nodes: see their status");
+  add_doubts(result);
   result.seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include "springfold/core/decompositions.hpp"
 #include "springfold/core/number_text.hpp"
+#include "switch_words.hpp"
 
 namespace springfold::analysis {
 namespace {
@@ -14,12 +15,10 @@ constexpr Index largest_matrix = 300;
 
 /// Rows of the equilibrium that no unknown can change, by the coordinates that they belong to: the left null
 /// vectors of the matrix of the solve at the state of plain kinematics.
-std::string untouched(const CommandSetup& setup, const statics::ControlResult& result) {
+std::string untouched(const statics::System& system, const statics::ControlSolver& solver,
+                      const statics::ControlResult& result) {
   constexpr double none = 1e-9, visible = 0.3;
-  const statics::System& system = setup.system;
   if (system.size > largest_matrix || !result.plain.closed) return {};
-  const statics::ControlSolver solver =
-      control_solver(system, setup.task, result.plain.z, result.plain.rho);
   statics::Workspace work;
   Vector r;
   Matrix A, by_rho;
@@ -47,16 +46,14 @@ std::string untouched(const CommandSetup& setup, const statics::ControlResult& r
 
 /// The largest part of the load with which the target is held, from none on; nothing where it is not held
 /// without load.
-std::optional<double> held_part(const CommandSetup& setup, const Vector& target, const Vector& W,
-                                const statics::ControlResult& result) {
+std::optional<double> held_part(const statics::System& system, statics::ControlSolver solver,
+                                const Vector& target, const Vector& W) {
   constexpr int steps = 20, halvings = 12;
-  statics::ControlSolver solver =
-      control_solver(setup.system, setup.task, result.plain.z, result.plain.rho);
-  if (!solve_control(setup.system, solver, target, Vector::Zero(W.size()))) return std::nullopt;
+  if (!solve_control(system, solver, target, Vector::Zero(W.size()))) return std::nullopt;
   double held = 0, next = 1.0 / steps, step = 1.0 / steps;
   for (int i = 0; i < steps + halvings && held < 1; ++i) {
     statics::ControlSolver trial = solver;
-    if (solve_control(setup.system, trial, target, next * W)) {
+    if (solve_control(system, trial, target, next * W)) {
       solver = trial;
       held = next;
     } else {
@@ -67,23 +64,50 @@ std::optional<double> held_part(const CommandSetup& setup, const Vector& target,
   return held;
 }
 
+/// Does a spring act otherwise beyond a threshold, so that the state says little about others?
+bool has_thresholds(const statics::System& system) {
+  for (std::size_t j = 0; j < system.switches.size(); ++j) {
+    const statics::Switch& s = system.switches[j];
+    if (law_of(system, s).changes_at(j - first_switch_of(system, s))) return true;
+  }
+  return false;
+}
+
+std::string unable_words(const CommandSetup& setup, const statics::UnableDrive& drive) {
+  const statics::System& system = setup.system;
+  const auto spring = std::find_if(
+      system.springs.begin(), system.springs.end(),
+      [&](const statics::CoordinateSpring& one) { return one.coordinate == drive.coordinate; });
+  const bool is_force = system.is_length[static_cast<std::size_t>(drive.coordinate)];
+  return "not held: the spring of " + spring->name + " would have to bear a " +
+         (is_force ? "force" : "moment") + " of " +
+         rounded(drive.force * (is_force ? setup.scales.force : setup.scales.moment())) +
+         ", which it never does";
+}
+
 }  // namespace
 
-std::string why_not_held(const CommandSetup& setup, const Vector& target, const Vector& W,
-                         const statics::ControlResult& result) {
-  if (result.status != statics::ControlStatus::not_held) return shortage(setup, result);
-  if (const std::string names = untouched(setup, result); !names.empty())
-    return "not held: none of the chosen commands and no spring acts on " + names +
-           ", so nothing balances a load there";
-  if (!result.plain.closed) return shortage(setup, result);
-  const auto part = held_part(setup, target, W, result);
+NotHeld why_not_held(const CommandSetup& setup, const Vector& target, const Vector& W,
+                     const statics::ControlResult& result) {
+  if (result.status != statics::ControlStatus::not_held) return {shortage(setup, result), true};
+  if (result.unable.coordinate >= 0) return {unable_words(setup, result.unable), true};
+  const statics::ControlSolver solver =
+      control_solver(setup.system, setup.task, result.plain.z, result.plain.rho);
+  const statics::System straight = with_straight_drives(setup.system, solver);
+  if (const std::string names = untouched(straight, solver, result); !names.empty())
+    return {"not held: none of the chosen commands and no spring acts on " + names +
+                ", so nothing balances a load there",
+            !has_thresholds(straight)};
+  if (!result.plain.closed) return {shortage(setup, result)};
+  const auto part = held_part(straight, solver, target, W);
   if (!part && W.isZero(0))
-    return shortage(setup, result) + "; the springs alone cannot be balanced here";
-  if (!part) return shortage(setup, result) + ", not even without the load";
+    return {shortage(setup, result) + "; the springs alone cannot be balanced here"};
+  if (!part) return {shortage(setup, result) + ", not even without the load"};
   if (*part < 1)
-    return "not held: only " + rounded(100 * *part, 3) +
-           " % of the load can be held here, found by raising it from zero";
-  return shortage(setup, result);
+    return {"not held: only " + rounded(100 * *part, 3) +
+                " % of the load can be held here, found by raising it from zero",
+            *part > 0};
+  return {shortage(setup, result)};
 }
 
 }  // namespace springfold::analysis

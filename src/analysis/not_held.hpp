@@ -7,11 +7,17 @@
 
 namespace springfold::analysis {
 
-/// Words for a target that is not held: coordinates on which neither a command nor a spring acts, or how much
-/// of the load can be held there, or what is left where the iteration ended.
+struct NotHeld {
+  std::string why{};
+  bool is_shown = false;  ///< that no commands hold it, and not only that none were found
+};
+
+/// Words for a target that is not held: a drive whose spring cannot have the force that it takes, coordinates on which
+/// neither a command nor a spring acts, or how much of the load can be held there, or what is left where the iteration
+/// ended. Drives are judged by their forces, wherever their springs stand.
 /// @param target, W  prescribed coordinates and stacked load, dimensionless
-/// @param result     of the solve that failed with ControlStatus::not_held
-std::string why_not_held(const CommandSetup& setup, const Vector& target, const Vector& W,
-                         const statics::ControlResult& result);
+/// @param result     of the solve that failed
+NotHeld why_not_held(const CommandSetup& setup, const Vector& target, const Vector& W,
+                     const statics::ControlResult& result);
 
 }  // namespace springfold::analysis

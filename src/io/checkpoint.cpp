@@ -51,7 +51,7 @@ bool read_row(std::string_view line, PartialRows& all) {
   if (!read_number(taken(line, '\t'), node) || node >= all.rows.size()) return false;
   analysis::Sample sample;
   int state = 0;
-  constexpr int last = static_cast<int>(analysis::NodeState::not_computed);
+  constexpr int last = static_cast<int>(analysis::NodeState::undecided);
   if (!read_number(taken(line, '\t'), state) || state < 0 || state > last) return false;
   sample.state = static_cast<analysis::NodeState>(state);
   sample.piece = taken(line, '\t');

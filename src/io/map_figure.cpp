@@ -48,7 +48,7 @@ class Plane {
 
   GridField held() const {
     return field([](const analysis::Sample& s) {
-      if (s.state == NodeState::not_computed) return nothing;
+      if (s.state == NodeState::not_computed || s.state == NodeState::undecided) return nothing;
       return s.state == NodeState::outside ? 0.0 : 1.0;
     });
   }

@@ -86,7 +86,9 @@ std::string search_words(const StudyResult& result) {
 std::string held_words(const std::vector<const Sample*>& rows, const std::string& noun) {
   int held = 0, unstable = 0;
   for (const Sample* row : rows) {
-    const bool is_held = row->state != NodeState::outside && row->state != NodeState::not_computed;
+    const bool is_held = row->state != NodeState::outside &&
+                         row->state != NodeState::not_computed &&
+                         row->state != NodeState::undecided;
     held += is_held ? 1 : 0;
     unstable += row->state == NodeState::unstable || row->state == NodeState::critical ? 1 : 0;
   }

@@ -8,6 +8,7 @@
 #include "springfold/core/rounding.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
 #include "springfold/statics/shapes.hpp"
+#include "straight_drives.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -57,18 +58,23 @@ double rounding_of_row(const System& system, const ControlSolver& s, Index row) 
   return few_roundings * terms;
 }
 
-/// Gaps are compared with lengths, forces with forces: a huge wrench must not excuse a gap. Forces of stiff springs
-/// leave their rounding, whatever a soft one makes of the unit of force.
-bool is_solved(const System& system, const ControlSolver& s) {
+/// What a solution may leave of a row. Gaps are compared with lengths, forces with forces: a huge wrench must not
+/// excuse a gap.
+double most_left(const System& system, const ControlSolver& s, bool is_gap) {
   double size = 1, wrench = 1;
   for (Index i = 0; i < system.size; ++i) {
     double& largest = system.is_wrench[static_cast<std::size_t>(i)] ? wrench : size;
     largest = std::max(largest, std::abs(s.z[i]));
   }
+  return solved_to * (is_gap ? size : std::max(size, wrench));
+}
+
+/// Forces of stiff springs leave their rounding, whatever a soft one makes of the unit of force.
+bool is_solved(const System& system, const ControlSolver& s) {
+  const double most_gap = most_left(system, s, true), most_force = most_left(system, s, false);
   for (Index i = 0; i < system.size; ++i) {
     const bool is_gap = system.is_wrench[static_cast<std::size_t>(i)];
-    const double most = solved_to * (is_gap ? size : std::max(size, wrench));
-    if (std::abs(s.r[i]) <= most) continue;
+    if (std::abs(s.r[i]) <= (is_gap ? most_gap : most_force)) continue;
     if (is_gap || !(std::abs(s.r[i]) <= rounding_of_row(system, s, i))) return false;
   }
   return true;
@@ -158,6 +164,99 @@ Index worst_row_of(const System& system, const ControlSolver& s) {
   return worst;
 }
 
+/// Newton's method, then KINSOL and Newton's method.
+bool solve_from_state(const System& system, ControlSolver& solver) {
+  const Vector z = solver.z;
+  const Inputs inputs = solver.inputs;
+  solver.globalised = false;
+  if (newton(system, solver)) return true;
+  const int wasted = solver.iterations;
+  solver.globalised = true;
+  solver.z = z;
+  solver.inputs = inputs;
+  const auto n = static_cast<Index>(solver.unknowns.size());
+  const auto put = [&](const Vector& y) {
+    for (std::size_t k = 0; k < solver.unknowns.size(); ++k)
+      unknown(system, solver, k) = y[static_cast<Index>(k)];
+  };
+  Vector y(n);
+  for (std::size_t k = 0; k < solver.unknowns.size(); ++k)
+    y[static_cast<Index>(k)] = unknown(system, solver, k);
+  const SquareSystem square{n,
+                            [&](const Vector& at, Vector& r) {
+                              put(at);
+                              const bool finite = evaluate_residual(system, solver);
+                              r = solver.r;
+                              return finite;
+                            },
+                            [&](const Vector& at, Matrix& J) {
+                              put(at);
+                              const bool finite = evaluate(system, solver);
+                              fill_matrix(system, solver);
+                              J = solver.M;
+                              return finite;
+                            }};
+  const KinsolResult found = solve_by_kinsol(square, y, 1e-9, 5.0);
+  put(found.y);
+  const ControlSolver before = solver;
+  const bool solved = newton(system, solver);
+  const int last = solver.iterations;
+  if (!solved) {  // what KINSOL reached says more than a Newton iteration that went astray
+    solver = before;
+    evaluate_residual(system, solver);
+  }
+  solver.iterations = wasted + found.iterations + last;
+  return solved;
+}
+
+/// The deflections with which springs have the forces that they have in the state, and commands that differ by as much:
+/// the places of the drives stay.
+/// @param s  a solution with the straight laws of `straight`
+bool put_deflections(const System& system, const System& straight, const ControlSolver& start,
+                     const std::vector<AskedSpring>& asked, ControlSolver& s) {
+  const double most = most_left(system, s, false);
+  const bool forces_are_known = std::all_of(
+      asked.begin(), asked.end(), [](const AskedSpring& one) { return one.command >= 0; });
+  for (const AskedSpring& one : asked) {
+    const CoordinateSpring& spring = system.springs[one.spring];
+    const double here = s.z[spring.coordinate], from = start.z[spring.coordinate];
+    const double force = straight.springs[one.spring].law.torque(0, here);
+    // Where the law has the force along a whole segment the spring stays where it stood, if that is in it.
+    double to = from;
+    if (std::abs(force - spring.law.torque(spring.law.segment_at(from), from)) > most) {
+      const auto found = coordinate_of_torque(spring.law, force, from);
+      if (!found) {
+        if (forces_are_known && never_falls(spring.law)) s.unable = {spring.coordinate, force};
+        return false;
+      }
+      to = *found;
+    }
+    s.z[spring.coordinate] = to;
+    if (one.command >= 0) s.inputs.rho[one.command] += here - to;
+  }
+  return true;
+}
+
+/// Which force a drive must have is a matter of the equilibrium alone: it is the same whatever the law of its spring.
+/// So it is looked for with straight laws, and the laws tell the deflections that belong to the forces: Newton's method
+/// would have to find its way out of segments in which forces do not depend on deflections. For springs that are no
+/// drive's these deflections are where Newton's method begins.
+bool solve_by_forces(const System& system, ControlSolver& solver) {
+  const ControlSolver start = solver;
+  const std::vector<AskedSpring> asked = asked_springs(system, solver);
+  if (asked.empty()) return false;
+  const System straight = straightened(system, start, asked);
+  if (!solve_from_state(straight, solver)) return false;
+  const int spent = solver.iterations;
+  if (!put_deflections(system, straight, start, asked, solver) || !evaluate(system, solver))
+    return false;
+  solver.residual = solver.r.lpNorm<Eigen::Infinity>();
+  if (is_solved(system, solver)) return true;
+  const bool solved = solve_from_state(system, solver);
+  solver.iterations += spent;
+  return solved;
+}
+
 ControlResult by_paper(const System& system, const ControlProblem& problem, ControlResult result) {
   StartProblem start{.unknowns = StartUnknowns::commands, .body = problem.task.body};
   start.z = result.plain.z;
@@ -217,47 +316,17 @@ bool solve_control(const System& system, ControlSolver& solver, const Vector& ta
 }
 
 bool solve_control_globally(const System& system, ControlSolver& solver) {
-  const Vector z = solver.z;
-  const Inputs inputs = solver.inputs;
-  solver.globalised = false;
-  if (newton(system, solver)) return true;
-  const int wasted = solver.iterations;
-  solver.globalised = true;
-  solver.z = z;
-  solver.inputs = inputs;
-  const auto n = static_cast<Index>(solver.unknowns.size());
-  const auto put = [&](const Vector& y) {
-    for (std::size_t k = 0; k < solver.unknowns.size(); ++k)
-      unknown(system, solver, k) = y[static_cast<Index>(k)];
-  };
-  Vector y(n);
-  for (std::size_t k = 0; k < solver.unknowns.size(); ++k)
-    y[static_cast<Index>(k)] = unknown(system, solver, k);
-  const SquareSystem square{n,
-                            [&](const Vector& at, Vector& r) {
-                              put(at);
-                              const bool finite = evaluate_residual(system, solver);
-                              r = solver.r;
-                              return finite;
-                            },
-                            [&](const Vector& at, Matrix& J) {
-                              put(at);
-                              const bool finite = evaluate(system, solver);
-                              fill_matrix(system, solver);
-                              J = solver.M;
-                              return finite;
-                            }};
-  const KinsolResult found = solve_by_kinsol(square, y, 1e-9, 5.0);
-  put(found.y);
-  const ControlSolver before = solver;
-  const bool solved = newton(system, solver);
-  const int last = solver.iterations;
-  if (!solved) {  // what KINSOL reached says more than a Newton iteration that went astray
-    solver = before;
-    evaluate_residual(system, solver);
+  const ControlSolver start = solver;
+  solver.unable = {};
+  if (solve_from_state(system, solver)) return true;
+  ControlSolver asked = start;
+  if (solve_by_forces(system, asked)) {
+    asked.iterations += solver.iterations;
+    solver = std::move(asked);
+    return true;
   }
-  solver.iterations = wasted + found.iterations + last;
-  return solved;
+  solver.unable = std::move(asked.unable);
+  return false;
 }
 
 ControlResult kinetostatic_control(const System& system, const ControlProblem& problem) {
@@ -295,6 +364,7 @@ ControlResult kinetostatic_control(const System& system, const ControlProblem& p
     } else {
       result.worst_row = worst_row_of(system, solver);
       result.miss = std::abs(solver.r[result.worst_row]);
+      result.unable = solver.unable;
     }
   }
   if (result.status != ControlStatus::converged) return result;

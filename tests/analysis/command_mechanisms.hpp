@@ -41,6 +41,38 @@ inline model::SpringLaw one_sided(double stiffness, double from) {
   return model::OneSidedSpring{stiffness, from, model::OneSidedSpring::Side::above};
 }
 
+/// A point on two slides: that along x has a drive of stiffness 2 with a backlash of 0.1 to each side, that along y one
+/// of stiffness 5. A spring of stiffness 1 draws the point to x = 0.
+/// @param rest  where the spring of the first drive stands at first
+inline model::Mechanism with_backlash(double rest) {
+  using namespace model;
+  Mechanism m;
+  m.bodies.push_back({"tool", TaskSpace::xy, Vector{{-0.5, 0}}});
+  Chain drive, spring;
+  drive.name = "drive";
+  drive.elements.push_back(Joint{.name = "slide",
+                                 .kind = JointKind::prismatic,
+                                 .axis = Vec3<double>::UnitX(),
+                                 .role = JointRole::actuated,
+                                 .spring = PiecewiseLinearSpring{{-0.1, 0.1}, {2, 0, 2}, 0, 0},
+                                 .initial = rest});
+  drive.elements.push_back(Joint{.name = "lift",
+                                 .kind = JointKind::prismatic,
+                                 .axis = Vec3<double>::UnitY(),
+                                 .role = JointRole::actuated,
+                                 .spring = LinearSpring{5, 0}});
+  spring.name = "spring";
+  spring.elements.push_back(Joint{.name = "slide",
+                                  .kind = JointKind::prismatic,
+                                  .axis = Vec3<double>::UnitX(),
+                                  .role = JointRole::preloaded,
+                                  .spring = linear(1)});
+  spring.elements.push_back(
+      Joint{.name = "lift", .kind = JointKind::prismatic, .axis = Vec3<double>::UnitY()});
+  m.chains = {drive, spring};
+  return m;
+}
+
 inline Study command_study(StudyKind kind) {
   Study study;
   study.name = "commands";

@@ -170,6 +170,24 @@ TEST(Control, OtherUnitsChangeNothingButTheNumbers) {
   EXPECT_NEAR(value(thousand, 1, "K_trans_min"), value(one, 1, "K_trans_min") / 1000, 1e-12);
 }
 
+TEST(Control, FindsCommandsBeyondABacklashWhereverItsSpringStandsAtFirst) {
+  for (const double rest : {0.0, 0.3}) {
+    Study study = along({Vector{{-0.5, 0}}, Vector{{-0.25, 0}}, Vector{{0.25, 0}}});
+    const StudyResult result = run_study(with_backlash(rest), study);
+    ASSERT_TRUE(result.start.found);
+    double x = 0;
+    int targets = 0;
+    for (std::size_t row = 0; row < result.branches[0].samples.size(); ++row) {
+      if (result.branches[0].samples[row].status == "on the way") continue;
+      ++targets;
+      x = value(result, row, "tool.x");
+      EXPECT_NEAR(value(result, row, "drive.slide.rho"), 1.5 * x + std::copysign(0.1, x), 1e-10);
+    }
+    EXPECT_EQ(targets, 3);
+    EXPECT_NEAR(x, 0.25, 1e-15);
+  }
+}
+
 TEST(Control, WithoutAnyReachableTargetThereIsNoStart) {
   const StudyResult result = run_study(orthoglide(linear(0)), along({Vector{{0, 2}}}));
   EXPECT_FALSE(result.start.found);

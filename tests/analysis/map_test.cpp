@@ -68,6 +68,64 @@ TEST(Map, NodesOutsideAreMarkedWithTheReasonAndHaveNoNumbers) {
   EXPECT_EQ(rows(result).samples[12].status, "ok");
 }
 
+TEST(Map, ADriveWithBacklashHoldsEveryNodeBesideTheOneWithoutForce) {
+  // k (x - rho + w) = -x for x > 0, the mirror image for x < 0; without force the command is free.
+  Study study = command_study(StudyKind::map);
+  study.map.axes = {{.name = "node.x", .pose = 0, .from = -0.5, .to = 0.5, .points = 6}};
+  study.map.pose = Vector::Zero(2);
+  for (const double rest : {0.0, 0.3}) {
+    const StudyResult result = run_study(with_backlash(rest), study);
+    ASSERT_TRUE(complete(result));
+    EXPECT_EQ(rows(result).forward.reason, "6 nodes held and stable");
+    for (std::size_t row = 0; row < 6; ++row) {
+      const double x = value(result, row, "node.x");
+      EXPECT_NEAR(value(result, row, "drive.slide.rho"), 1.5 * x + std::copysign(0.1, x), 1e-12);
+    }
+  }
+}
+
+TEST(Map, WithinABacklashTheNodeWithoutForceIsHeldAndCritical) {
+  Study study = command_study(StudyKind::map);
+  study.map.axes = {{.name = "node.x", .pose = 0, .from = 0, .to = 0, .points = 1}};
+  study.map.pose = Vector::Zero(2);
+  model::Mechanism m = with_backlash(0);
+  m.chains.pop_back();  // nothing but the drive
+  const StudyResult result = run_study(m, study);
+  EXPECT_EQ(rows(result).samples[0].status, "critical");
+  EXPECT_NEAR(value(result, 0, "drive.slide.rho"), 0, 1e-15);
+}
+
+TEST(Map, WhatADriveWouldHaveToBearAndNeverDoesIsSaidOfANodeThatIsNotHeld) {
+  Study study = command_study(StudyKind::map);
+  study.map.axes = {{.name = "node.x", .pose = 0, .from = -0.5, .to = 0.5, .points = 2}};
+  study.map.pose = Vector::Zero(2);
+  model::Mechanism m = with_backlash(0);
+  std::get<model::Joint>(m.chains[0].elements[0]).spring = one_sided(2, 0.1);  // it only pulls
+  const StudyResult result = run_study(m, study);
+  EXPECT_TRUE(complete(result));
+  EXPECT_NEAR(value(result, 0, "drive.slide.rho"), -0.85, 1e-12);
+  EXPECT_EQ(rows(result).samples[1].status,
+            "not held: the spring of drive.slide.theta would have to bear a force of -0.5, which "
+            "it never does");
+}
+
+TEST(Map, ANodeAtWhichNothingIsFoundIsUndecidedAndNotOutside) {
+  // With the commands of the node the load draws the spring of the drive to where it has no force.
+  Study study = command_study(StudyKind::map);
+  study.map.command = NodeCommand::geometric;
+  study.map.axes = {{.name = "node.x", .pose = 0, .from = 0, .to = 0.5, .points = 2}};
+  study.map.pose = Vector::Zero(2);
+  study.constant_load = Vector{{-1, 0}};
+  model::Mechanism m = with_backlash(0);
+  m.chains.pop_back();
+  std::get<model::Joint>(m.chains[0].elements[0]).spring = one_sided(2, 0.1);
+  const StudyResult result = run_study(m, study);
+  EXPECT_FALSE(complete(result));
+  EXPECT_EQ(rows(result).samples[0].state, NodeState::undecided);
+  EXPECT_EQ(rows(result).forward.reason, "0 nodes held and stable, 2 undecided");
+  ASSERT_EQ(result.doubts.size(), 1u);
+}
+
 TEST(Map, TheCriticalLoadOfAStudyAlongTheDiagonalIsThatOfTable1) {
   // From Q2 with the paper's commands, pushed along the diagonal: the first maximum of the force.
   Study study = command_study(StudyKind::map);

@@ -41,6 +41,17 @@ std::vector<SpringLaw> all_laws() {
           five_segments()};
 }
 
+TEST(SpringLaw, HasATorqueAtTheNearestCoordinateWhereItHasItAtAll) {
+  const CompiledSpring gap = compile(PiecewiseLinearSpring{{-0.1, 0.2}, {4, 0, 8}, 0, 0});
+  EXPECT_EQ(coordinate_of_torque(gap, 4, 0), 0.7);
+  EXPECT_EQ(coordinate_of_torque(gap, -4, 3), -1.1);
+  EXPECT_EQ(coordinate_of_torque(gap, 0, 3), 0.2);
+  EXPECT_EQ(coordinate_of_torque(gap, 0, 0.125), 0.125);
+  const CompiledSpring cable = compile(OneSidedSpring{2, 0.5, Side::above});
+  EXPECT_EQ(coordinate_of_torque(cable, 1, 0), 1);
+  EXPECT_EQ(coordinate_of_torque(cable, -1, 0), std::nullopt);
+}
+
 TEST(SpringLaw, TorqueIsTheDerivativeOfTheEnergyInEverySegment) {
   std::mt19937 random(41);
   std::uniform_real_distribution<double> uniform(-4, 4);

@@ -223,6 +223,36 @@ TEST(KinetostaticControl, SaysThatAClosedPoseIsNotHeld) {
   EXPECT_GT(result.miss, 0.1);
 }
 
+TEST(KinetostaticControl, WindsUpTheSlackOfCablesThatBearAWeight) {
+  // Two cables from (-1, 1) and (1, 1), slack until they are longer by 0.05: rho = l - T/k - 0.05.
+  model::Mechanism m;
+  m.bodies.push_back({"weight", model::TaskSpace::xy, Vector::Zero(2)});
+  for (const double side : {-1.0, 1.0}) {
+    model::Chain cable;
+    cable.name = side < 0 ? "left" : "right";
+    cable.from_attachment.p = {side, 1, 0};
+    cable.elements.push_back(model::Joint{
+        .name = "hinge", .axis = model::Vec3<double>::UnitZ(), .initial = side < 0 ? -0.8 : -2.35});
+    cable.elements.push_back(
+        model::Joint{.name = "winch",
+                     .kind = model::JointKind::prismatic,
+                     .axis = model::Vec3<double>::UnitX(),
+                     .role = model::JointRole::actuated,
+                     .spring = model::OneSidedSpring{50, 0.05, model::OneSidedSpring::Side::above},
+                     .command = 1.41});
+    m.chains.push_back(cable);
+  }
+  const System system = prepare(m);
+  const double x = 0.2, y = -0.5;
+  const ControlResult result = commanded(system, Vector{{x, y}}, Vector{{0, -1}});
+  ASSERT_EQ(result.status, ControlStatus::converged);
+  const double left = std::hypot(1 + x, 1 - y), right = std::hypot(1 - x, 1 - y);
+  // Weight 1: the parts of both tensions across cancel, those upwards add up.
+  const double both = 1 / (2 * (1 - y));
+  EXPECT_NEAR(result.inputs.rho[0], left - (1 - x) * both * left / 50 - 0.05, 1e-12);
+  EXPECT_NEAR(result.inputs.rho[1], right - (1 + x) * both * right / 50 - 0.05, 1e-12);
+}
+
 TEST(KinetostaticControl, LeavesOtherPoseCoordinatesInEquilibrium) {
   // Two drives place the point of a platform; its angle is left to the springs.
   model::Mechanism m = three_rpr({.stiffness = 100, .free_length = 0.3, .actuated = true});

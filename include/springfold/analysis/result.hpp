@@ -83,6 +83,7 @@ enum class NodeState {
   load_not_found,  ///< held and stable, but its critical load was not found
   outside,         ///< not held
   not_computed,
+  undecided,  ///< no commands were found that hold it, which does not show that there are none
 };
 
 /// One row of the branch table: a point of the branch.

@@ -1,6 +1,7 @@
 // Spring laws of preloaded and virtual joints: paper eq. (2) and (3).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -143,6 +144,15 @@ CompiledSpring compile(const SpringLaw& law);
 
 /// Coordinate at which the torque vanishes, near `initial`: the nearest one of a law that rises.
 double relaxed_coordinate(const CompiledSpring& spring, double initial);
+
+/// Coordinate at which the law has the torque: of a law that rises the one nearest to `near`, of others the first one
+/// met on the way on which a rising law has it. Nothing where the way ends without it.
+std::optional<double> coordinate_of_torque(const CompiledSpring& spring, double torque,
+                                           double near);
+
+/// Is the torque nowhere less than at a smaller coordinate? Then it has a torque nowhere if coordinate_of_torque() does
+/// not find it.
+bool never_falls(const CompiledSpring& spring);
 
 /// Does the energy grow without bound on both sides? False where that is not sure.
 bool holds_both_ways(const CompiledSpring& spring);

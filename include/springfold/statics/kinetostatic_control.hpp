@@ -18,6 +18,12 @@ enum class ControlStatus {
   wrong_count,  ///< not as many commands as prescribed coordinates
 };
 
+/// A drive whose spring has nowhere the force that the equilibrium asks of it.
+struct UnableDrive {
+  Index coordinate = -1;  ///< of its spring, in z; -1: none
+  double force = 0;       ///< that is asked
+};
+
 /// Storage and last solution of the on-line solver; it belongs to one thread. After the first solve
 /// nothing is allocated any more.
 struct ControlSolver {
@@ -30,6 +36,7 @@ struct ControlSolver {
   int iterations = 0;             ///< of the last solve
   bool globalised = false;        ///< KINSOL was needed (solve_control_globally)
   double residual = 0;            ///< largest entry of the equilibrium residual after it
+  UnableDrive unable{};           ///< why there is no solution (solve_control_globally)
   Workspace work{};
   Vector r{}, step{};
   Matrix A{}, dR_drho{}, M{};
@@ -54,8 +61,17 @@ bool solve_control(const System& system, ControlSolver& solver, const Vector& ta
                    const Vector& W);
 
 /// The same, and where it fails again from the state `solver` was given, globalised by KINSOL (line
-/// search) and then by Newton's method to full precision. The prescribed entries stand in solver.z.
+/// search) and then by Newton's method to full precision. Where that fails, too, the forces of the drives are found
+/// with straight laws of their springs, and their deflections from the forces by the laws themselves: springs may stand
+/// where their law is flat. A law that has the force along a whole flat segment leaves the spring where it stood, if
+/// that is in it. The prescribed entries stand in solver.z.
 bool solve_control_globally(const System& system, ControlSolver& solver);
+
+/// The system with straight laws of the springs of those drives whose commands are unknown, and of springs of joints
+/// that do not move freely whose law is flat somewhere. The same poses are held in it by the same forces of the drives,
+/// and no segment of a drive's law hides what commands do.
+/// @param solver  gives the unknowns, and the state whose torques the laws go through
+System with_straight_drives(const System& system, const ControlSolver& solver);
 
 /// Which iteration finds the commands.
 enum class ControlMethod {
@@ -84,6 +100,7 @@ struct ControlResult {
   Stability stability{};    ///< at the solution
   Index worst_row = 0;      ///< not_held: row of the residual that misses most ...
   double miss = 0;          ///< ... and by how much
+  UnableDrive unable{};     ///< not_held: a drive whose spring cannot have the force that it takes
 };
 
 /// Commands for a target, from the plain inverse kinematics.
