@@ -17,6 +17,35 @@ constexpr double allowed_violation = 1e-11;
 constexpr double rough = 1e-4;
 /// Evaluations of one search; a smooth problem takes a few dozen.
 constexpr int most_evaluations = 250, most_rough_evaluations = 40;
+/// A search that so many evaluations bring no further is at its end, or at a jump, along which it would creep: where
+/// all is smooth each of a few steps halves what is left.
+constexpr int most_without_progress = 40;
+constexpr double progress_of_violation = 0.5, progress_of_objective = 1e-3;
+
+/// The best point of a search, feasible ones first, and when the last one came that was much better than before.
+struct Progress {
+  Vector x{};
+  double violation = HUGE_VAL, f = HUGE_VAL;
+  double known_violation = HUGE_VAL, known_f = HUGE_VAL;  ///< of the last much better one
+  int without = 0;
+
+  void note(const Vector& at, const InequalityValues& values) {
+    const double largest = values.g.size() > 0 ? values.g.maxCoeff() : 0;
+    const double missed = largest > allowed_violation ? largest : 0;
+    if (missed < violation || (missed == violation && values.f < f)) {
+      x = at;
+      violation = missed;
+      f = values.f;
+    }
+    const bool meets_more = violation < progress_of_violation * known_violation;
+    const bool costs_less = violation == 0 && known_violation == 0 &&
+                            f < known_f - progress_of_objective * std::abs(known_f);
+    if (!meets_more && !costs_less) return;
+    known_violation = violation;
+    known_f = violation == 0 ? f : HUGE_VAL;
+    without = 0;
+  }
+};
 
 /// Objective and inequalities are asked for one after the other at the same place.
 struct Memory {
@@ -24,6 +53,7 @@ struct Memory {
   nlopt_opt search;
   Vector x{};
   std::optional<InequalityValues> values{};
+  Progress progress{};
   std::exception_ptr thrown{};  ///< C code is left before it goes on
 
   const std::optional<InequalityValues>& at(unsigned n, const double* where) {
@@ -32,10 +62,12 @@ struct Memory {
     x = wanted;
     values.reset();
     try {
-      if (problem.stopped && problem.stopped())
+      if (++progress.without > most_without_progress || (problem.stopped && problem.stopped())) {
         nlopt_force_stop(search);
-      else
+      } else {
         values = problem.at(x);
+        if (values) progress.note(x, *values);
+      }
     } catch (...) {
       thrown = std::current_exception();
       nlopt_force_stop(search);
@@ -89,7 +121,9 @@ Vector search_minimum(const InequalityProblem& problem, const Vector& start, Dep
   // What it returns says why it stopped, not whether the point is a minimum.
   static_cast<void>(nlopt_optimize(search.get(), x.data(), &f));
   if (memory.thrown) std::rethrow_exception(memory.thrown);
-  return x;
+  return memory.progress.without > most_without_progress && memory.progress.x.size() > 0
+             ? memory.progress.x
+             : x;
 }
 
 Vector multipliers(const Vector& df, const Matrix& active) {

@@ -316,10 +316,13 @@ bool solve_control(const System& system, ControlSolver& solver, const Vector& ta
 }
 
 bool solve_control_globally(const System& system, ControlSolver& solver) {
-  const ControlSolver start = solver;
+  const Vector z = solver.z;
+  const Inputs inputs = solver.inputs;
   solver.unable = {};
   if (solve_from_state(system, solver)) return true;
-  ControlSolver asked = start;
+  ControlSolver asked = solver;
+  asked.z = z;
+  asked.inputs = inputs;
   if (solve_by_forces(system, asked)) {
     asked.iterations += solver.iterations;
     solver = std::move(asked);
