@@ -38,8 +38,8 @@ must_exist() {
 
 # Many tests in one process, some processes beside each other: with sanitizers every process takes some seconds for its
 # start and its search for leaks. A process that hangs ends after an hour. No debug information, which costs a fifth of
-# the build: reports name functions, and undefined behaviour its line. Lines of all:
-# cmake --preset sanitize -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1".
+# the build: reports name functions. Lines: cmake --preset sanitize -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1". Undefined behaviour
+# is told as an illegal instruction (ILL); preset debug says which.
 run_tests() {
   local shards=3 left_out=""
   if [[ $quick == yes ]]; then
@@ -48,7 +48,7 @@ run_tests() {
   fi
   local -x GTEST_FILTER="-$left_out"
   # Two frames of where memory was asked for are enough to begin with; thirty take a seventh of the time.
-  local -x ASAN_OPTIONS="${ASAN_OPTIONS:-malloc_context_size=2}"
+  local -x ASAN_OPTIONS="${ASAN_OPTIONS:-malloc_context_size=2:handle_sigill=1}"
   export LSAN_OPTIONS="suppressions=$PWD/tests/leaks_of_libraries.txt:print_suppressions=0"
   find build/sanitize/tests -maxdepth 1 -name 'springfold_*_tests' | sort |
     while read -r program; do

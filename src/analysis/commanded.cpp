@@ -350,28 +350,4 @@ std::string status_of(const CommandedValues& at) {
   return state == NodeState::stable ? "ok" : state == NodeState::unstable ? "unstable" : "critical";
 }
 
-std::string shortage(const CommandSetup& setup, const statics::ControlResult& result) {
-  const statics::System& system = setup.system;
-  switch (result.status) {
-    case statics::ControlStatus::converged:
-      return "";
-    case statics::ControlStatus::wrong_count:
-      return "as many commands as prescribed pose coordinates are needed";
-    case statics::ControlStatus::unreachable:
-      return "unreachable: chain " + system.mechanism.chains[result.plain.chain].name +
-             " cannot be closed, it is short by " + rounded(setup.scales.length * result.plain.gap);
-    case statics::ControlStatus::not_held:
-      break;
-  }
-  const auto row = static_cast<std::size_t>(result.worst_row);
-  if (result.miss == 0) return "not held: the iteration does not converge";
-  if (system.is_wrench[row])
-    return "not held: no commands found; the closure of " + system.coordinate_names[row] +
-           " is missed by " + rounded(result.miss * setup.scales.length);
-  const bool force = system.is_length[row];
-  return "not held: no commands found that balance springs and load; at " +
-         system.coordinate_names[row] + " a " + (force ? "force" : "moment") + " of " +
-         rounded(result.miss * (force ? setup.scales.force : setup.scales.moment())) + " is left";
-}
-
 }  // namespace springfold::analysis

@@ -73,7 +73,4 @@ statics::KinematicInverse approach(const CommandSetup& setup, const Vector& targ
 /// Plain inverse kinematics at the body's own pose, or where the guess leads.
 statics::KinematicInverse at_own_pose(const CommandSetup& setup);
 
-/// "cannot be reached: leg_y is short by 0.12 m" and the like; empty when converged.
-std::string shortage(const CommandSetup& setup, const statics::ControlResult& result);
-
 }  // namespace springfold::analysis

@@ -168,7 +168,7 @@ class ControlRun {
         if (had_last && study_.command.method == CommandMethod::newton)
           status = "not reached along the path";
       } else {
-        status = why_not_held(setup_, path_.target(k), path_.load(k), fresh).why;
+        status = words(why_not_held(setup_, path_.target(k), path_.load(k), fresh));
         ++missing_;
         if (first_missing_.empty()) first_missing_ = "target " + std::to_string(k) + ": " + status;
       }

@@ -7,7 +7,6 @@
 
 #include "analysis/undefined.hpp"
 #include "constant_nodes.hpp"
-#include "design_modes.hpp"
 #include "first_unwanted.hpp"
 #include "springfold/continuation/options.hpp"
 #include "springfold/core/number_text.hpp"
@@ -123,16 +122,30 @@ std::vector<FoundRequirement> Requirements::unknown() const {
   return all;
 }
 
-std::optional<Assessment> Requirements::assess(const Vector& values, const std::vector<Way>& ways,
-                                               const Observer& observer, std::string& why) const {
-  DesignPath path(case_, values);
+std::unique_ptr<TracedDesign> Requirements::trace(const Vector& values, const Observer& observer,
+                                                  std::string& why) const {
+  auto design = std::make_unique<TracedDesign>(TracedDesign{values, DesignPath(case_, values)});
+  DesignPath& path = design->path;
   if (!path.has_start()) {
     why = "no start: " + path.base().report.message;
-    return std::nullopt;
+    return nullptr;
   }
   if (needs_path_) path.trace(observer);
+  for (const CriticalRequirement& wanted : settings_.critical)
+    if (is_lost_at_start(path, wanted))
+      design->modes.emplace_back();
+    else
+      design->modes.emplace_back(first_modes(case_, values, path, wanted, observer));
+  return design;
+}
+
+std::optional<Assessment> Requirements::assess(const TracedDesign& design,
+                                               const std::vector<Way>& ways,
+                                               std::string& why) const {
+  const DesignPath& path = design.path;
+  const Vector& values = design.values;
   Sheet sheet;
-  const bool known = add_critical(path, values, ways, observer, sheet) && add_curve(path, sheet) &&
+  const bool known = add_critical(design, ways, sheet) && add_curve(path, sheet) &&
                      add_constant(path, sheet) && add_stiffness(path, values, sheet);
   if (!known) {
     why = sheet.why;
@@ -155,20 +168,20 @@ std::optional<Assessment> Requirements::assess(const Vector& values, const std::
 
 /// Inequalities for every requirement: the climb, where it is wanted, and the modes of the first unwanted point that it
 /// does not rule out. What does not occur is far from its limit.
-bool Requirements::add_critical(const DesignPath& path, const Vector& values,
-                                const std::vector<Way>& ways, const Observer& observer,
+bool Requirements::add_critical(const TracedDesign& design, const std::vector<Way>& ways,
                                 Sheet& sheet) const {
+  const DesignPath& path = design.path;
   const Vector still = Vector::Zero(std::ssize(case_.numbers));
   const auto blank = unknown();
   for (std::size_t i = 0; i < settings_.critical.size(); ++i) {
     const CriticalRequirement& wanted = settings_.critical[i];
-    if (is_lost_at_start(path, wanted)) {
+    if (!design.modes[i]) {
       sheet.begin(blank[i], undefined);
       const std::size_t count = modes_together + (ways[i] == Way::climbing ? 1 : 0);
       for (std::size_t k = 0; k < count; ++k) sheet.add(k == 0 ? 1 : -1, still);
       continue;
     }
-    const FirstModes found = first_modes(case_, values, path, wanted, observer);
+    const FirstModes& found = *design.modes[i];
     const std::optional<SpecialPoint>& first = found.first;
     if (!first && !doubt_of(found.path).empty()) {
       sheet.why = doubt_of(found.path);

@@ -95,14 +95,17 @@ Vector DesignSearch::start(int k) const {
 
 std::optional<Assessment> DesignSearch::judge(const Vector& changes, const std::vector<Way>& ways) {
   if (stopped_) return std::nullopt;
-  if (last_changes_.size() == changes.size() && last_changes_ == changes && last_ways_ == ways)
-    return last_;
-  ++designs_;
+  const bool is_last = last_changes_.size() == changes.size() && last_changes_ == changes;
+  if (is_last && last_ways_ == ways) return last_;
   std::string why;
-  last_ = requirements_.assess(values(changes), ways, observer_, why);
-  last_changes_ = changes;
+  if (!is_last) {
+    ++designs_;
+    last_design_ = requirements_.trace(values(changes), observer_, why);
+    last_changes_ = changes;
+  }
+  last_ = last_design_ ? requirements_.assess(*last_design_, ways, why) : std::nullopt;
   last_ways_ = ways;
-  if (!last_) why_ = why;
+  if (!last_ && !why.empty()) why_ = why;
   return last_;
 }
 

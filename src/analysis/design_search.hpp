@@ -103,8 +103,9 @@ class DesignSearch {
   bool stopped_ = false;
   int designs_ = 0;
   std::string why_{};
-  /// The last design that was judged: searches ask for it again.
+  /// The last design that was judged: searches ask for it again, and each way of meeting the requirements does.
   Vector last_changes_{};
+  std::unique_ptr<TracedDesign> last_design_{};
   std::vector<Way> last_ways_{};
   std::optional<Assessment> last_{};
 };

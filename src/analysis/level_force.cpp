@@ -27,7 +27,7 @@ class LevelStretches {
         continue;
       if (!has_two_rows(branch_, event)) continue;
       const std::size_t row = event.row;
-      const double before = rate_beside(row, back_one), after = rate_beside(row + 1, ahead_one);
+      const double before = rate_beside(row, row_back), after = rate_beside(row + 1, row_ahead);
       ahead.push_back({&event, row, row + 1, before, after});
       if (row < branch_.start_row) back.push_back({&event, row + 1, row, after, before});
     }
@@ -37,8 +37,6 @@ class LevelStretches {
   }
 
  private:
-  static constexpr std::size_t ahead_one = 1, back_one = static_cast<std::size_t>(-1);
-
   double rate_at(std::size_t row) const {
     return evaluator_.force_rate(entries_[row].point).told();
   }

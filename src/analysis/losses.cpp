@@ -17,8 +17,6 @@ bool may_lose_stability(const Event& event) {
          event.kind == EventKind::corner_limit_point || is_meeting_of_branches(event.kind);
 }
 
-constexpr std::size_t ahead = 1, back = static_cast<std::size_t>(-1);
-
 /// The row from which those are reached whose count is not known, as along a family, none of whose states is more
 /// stable than the next: stability that is there before it is lost where it ends.
 std::size_t known_from(const Branch& branch, std::size_t row, std::size_t step, std::size_t index) {
@@ -50,8 +48,8 @@ std::vector<Loss> losses_of(const StudyResult& result,
       const double before = begins ? nothing : value(event.row - 1, index);
       const double after = value(last + 1, index);
       const bool ends = last + 1 >= branch.samples.size();
-      const std::size_t stable_before = known_from(branch, event.row - 1, back, index),
-                        stable_after = known_from(branch, last + 1, ahead, index);
+      const std::size_t stable_before = known_from(branch, event.row - 1, row_back, index),
+                        stable_after = known_from(branch, last + 1, row_ahead, index);
       const bool from_before = value(stable_before, index) == 0 && (after > 0 || ends);
       const bool from_after = value(stable_after, index) == 0 && (before > 0 || begins);
       if (!from_before && !from_after) continue;

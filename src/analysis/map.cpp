@@ -17,9 +17,8 @@
 #include "branch_rows.hpp"
 #include "critical_load.hpp"
 #include "grow_diagram.hpp"
-#include "not_held.hpp"
+#include "node_state.hpp"
 #include "run_kinds.hpp"
-#include "springfold/statics/first_equilibrium.hpp"
 
 namespace springfold::analysis {
 
@@ -107,9 +106,9 @@ class NodeMaker {
   void fill(const CommandSetup& setup, const Vector& pose, statics::KinematicInverse& near,
             Sample& sample) const {
     CommandedState state;
-    const NotHeld failed = solve(setup, pose, near, state);
+    const NotHeld failed = solve_node(study_, setup, pose, near, state);
     if (!failed.why.empty()) {
-      sample.status = failed.is_shown ? failed.why : undecided(failed.why);
+      sample.status = failed.is_shown ? words(failed) : "undecided: " + failed.why;
       sample.state = failed.is_shown ? NodeState::outside : NodeState::undecided;
       return;
     }
@@ -129,74 +128,6 @@ class NodeMaker {
     if (critical.why.empty()) return;
     sample.status = "critical load not found: " + critical.why;
     sample.state = NodeState::load_not_found;
-  }
-
-  static std::string undecided(const std::string& why) {
-    const std::string not_held = "not held: ";
-    return "undecided: " + (why.starts_with(not_held) ? why.substr(not_held.size()) : why);
-  }
-
-  /// The node's equilibrium; says why there is none.
-  NotHeld solve(const CommandSetup& setup, const Vector& pose, statics::KinematicInverse& near,
-                CommandedState& state) const {
-    if (study_.map.command == NodeCommand::given) return settle_from_guess(setup, pose, state);
-    const Vector scaled = pose.cwiseQuotient(setup.pose_scale);
-    const Vector target = scaled(setup.task.prescribed);
-    statics::KinematicInverse plain = approach(setup, target, near);
-    if (plain.closed) near = plain;
-    const bool kinetostatic = study_.map.command == NodeCommand::kinetostatic;
-    if (!kinetostatic && plain.closed) return settle(setup, std::move(plain), state);
-    if (!kinetostatic)
-      return {shortage(setup, {.status = statics::ControlStatus::unreachable, .plain = plain}),
-              true};
-    statics::ControlProblem problem{
-        .task = setup.task, .target = target, .W = setup.W, .z = plain.z, .rho = plain.rho};
-    if (study_.command.method == CommandMethod::paper)
-      problem.method = statics::ControlMethod::paper;
-    const statics::ControlResult found =
-        kinetostatic_control(setup.system, problem, std::move(plain));
-    if (found.status != statics::ControlStatus::converged)
-      return why_not_held(setup, target, setup.W, found);
-    state = {.z = found.z,
-             .inputs = found.inputs,
-             .piece = found.piece,
-             .plain = found.plain,
-             .iterations = static_cast<double>(found.iterations)};
-    return {};
-  }
-
-  /// Commands of plain inverse kinematics: the platform settles nearby.
-  static NotHeld settle(const CommandSetup& setup, statics::KinematicInverse plain,
-                        CommandedState& state) {
-    statics::ControlSolver solver = equilibrium_solver(setup.system, plain.z, plain.rho);
-    solver.inputs.W = setup.W;
-    if (!solve_control_globally(setup.system, solver))
-      return {"not held: no equilibrium near the node with these commands"};
-    state = {.z = solver.z,
-             .inputs = solver.inputs,
-             .piece = solver.piece,
-             .plain = std::move(plain),
-             .iterations = static_cast<double>(solver.iterations)};
-    return {};
-  }
-
-  NotHeld settle_from_guess(const CommandSetup& setup, const Vector& pose,
-                            CommandedState& state) const {
-    statics::StartProblem start{.body = study_.body};
-    start.z = statics::guess(setup.system);
-    start.z.segment(setup.t, setup.d) = pose.cwiseQuotient(setup.pose_scale);
-    start.inputs = {setup.system.commands, setup.W};
-    const statics::FirstEquilibrium found = first_equilibrium(setup.system, start);
-    if (found.status == statics::StartStatus::no_assembly)
-      return {"unreachable: the chains cannot be closed", true};
-    if (found.status != statics::StartStatus::found)
-      return {"not held: no equilibrium found with these commands"};
-    state = {.z = found.z, .inputs = found.inputs, .piece = found.piece};
-    state.iterations = found.iterations;
-    const Vector target = found.z.segment(setup.t, setup.d)(setup.task.prescribed);
-    state.plain =
-        kinematic_inverse(setup.system, setup.task, target, found.z, setup.system.commands);
-    return {};
   }
 
   const Study& study_;

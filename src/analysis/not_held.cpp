@@ -79,35 +79,67 @@ std::string unable_words(const CommandSetup& setup, const statics::UnableDrive& 
       system.springs.begin(), system.springs.end(),
       [&](const statics::CoordinateSpring& one) { return one.coordinate == drive.coordinate; });
   const bool is_force = system.is_length[static_cast<std::size_t>(drive.coordinate)];
-  return "not held: the spring of " + spring->name + " would have to bear a " +
+  return "the spring of " + spring->name + " would have to bear a " +
          (is_force ? "force" : "moment") + " of " +
          rounded(drive.force * (is_force ? setup.scales.force : setup.scales.moment())) +
          ", which it never does";
 }
 
+NotHeld out_of_reach(const CommandSetup& setup, const statics::KinematicInverse& plain) {
+  return {.is_unreachable = true,
+          .why = "chain " + setup.system.mechanism.chains[plain.chain].name +
+                 " cannot be closed, it is short by " + rounded(setup.scales.length * plain.gap),
+          .is_shown = true};
+}
+
+/// What is left where the iteration ended.
+std::string left_over(const CommandSetup& setup, const statics::ControlResult& result) {
+  const statics::System& system = setup.system;
+  const auto row = static_cast<std::size_t>(result.worst_row);
+  if (result.miss == 0) return "the iteration does not converge";
+  if (system.is_wrench[row])
+    return "no commands found; the closure of " + system.coordinate_names[row] + " is missed by " +
+           rounded(result.miss * setup.scales.length);
+  const bool force = system.is_length[row];
+  return "no commands found that balance springs and load; at " + system.coordinate_names[row] +
+         " a " + (force ? "force" : "moment") + " of " +
+         rounded(result.miss * (force ? setup.scales.force : setup.scales.moment())) + " is left";
+}
+
+NotHeld not_held(std::string why, bool is_shown = false) {
+  return {.why = std::move(why), .is_shown = is_shown};
+}
+
 }  // namespace
+
+std::string words(const NotHeld& failed) {
+  return (failed.is_unreachable ? "unreachable: " : "not held: ") + failed.why;
+}
 
 NotHeld why_not_held(const CommandSetup& setup, const Vector& target, const Vector& W,
                      const statics::ControlResult& result) {
-  if (result.status != statics::ControlStatus::not_held) return {shortage(setup, result), true};
-  if (result.unable.coordinate >= 0) return {unable_words(setup, result.unable), true};
+  if (result.status == statics::ControlStatus::wrong_count)
+    return not_held("as many commands as prescribed pose coordinates are needed", true);
+  if (result.status == statics::ControlStatus::unreachable)
+    return out_of_reach(setup, result.plain);
+  if (result.unable) return not_held(unable_words(setup, *result.unable), true);
   const statics::ControlSolver solver =
       control_solver(setup.system, setup.task, result.plain.z, result.plain.rho);
   const statics::System straight = with_straight_drives(setup.system, solver);
   if (const std::string names = untouched(straight, solver, result); !names.empty())
-    return {"not held: none of the chosen commands and no spring acts on " + names +
-                ", so nothing balances a load there",
-            !has_thresholds(straight)};
-  if (!result.plain.closed) return {shortage(setup, result)};
+    return not_held("none of the chosen commands and no spring acts on " + names +
+                        ", so nothing balances a load there",
+                    !has_thresholds(straight));
+  const std::string left = left_over(setup, result);
+  if (!result.plain.closed) return not_held(left);
   const auto part = held_part(straight, solver, target, W);
-  if (!part && W.isZero(0))
-    return {shortage(setup, result) + "; the springs alone cannot be balanced here"};
-  if (!part) return {shortage(setup, result) + ", not even without the load"};
+  if (!part && W.isZero(0)) return not_held(left + "; the springs alone cannot be balanced here");
+  if (!part) return not_held(left + ", not even without the load");
   if (*part < 1)
-    return {"not held: only " + rounded(100 * *part, 3) +
-                " % of the load can be held here, found by raising it from zero",
-            *part > 0};
-  return {shortage(setup, result)};
+    return not_held("only " + rounded(100 * *part, 3) +
+                        " % of the load can be held here, found by raising it from zero",
+                    *part > 0);
+  return not_held(left);
 }
 
 }  // namespace springfold::analysis

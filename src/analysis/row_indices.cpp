@@ -50,7 +50,7 @@ class RowsBeside {
     }
     for (std::size_t i = 0; i < critical.size(); ++i)
       if (critical[i])
-        for (const std::size_t step : {ahead, back})
+        for (const std::size_t step : {row_ahead, row_back})
           for (std::size_t k = i + step; is_near(i, k); k += step) is_near_[k] = true;
   }
 
@@ -67,8 +67,6 @@ class RowsBeside {
     constexpr double clear = 8 * continuation::root_of_rounding;
     return distance(point, row) <= clear;
   }
-
-  static constexpr std::size_t ahead = 1, back = static_cast<std::size_t>(-1);
 
  private:
   bool is_near(std::size_t point, std::size_t row) const {
@@ -98,7 +96,7 @@ std::vector<std::size_t> counted_rows(const Branch& branch, const std::vector<bo
   const RowsBeside beside(branch, critical);
   for (std::size_t i = 0; i < critical.size(); ++i) {
     if (!critical[i]) continue;
-    for (const std::size_t step : {RowsBeside::ahead, RowsBeside::back})
+    for (const std::size_t step : {row_ahead, row_back})
       if (const auto beyond = beside.first_beyond(i, step))
         for (std::size_t k = i + step; k != *beyond; k += step)
           if (!branch.samples[k].rests || beside.is_blurred(i, k)) rows[k] = *beyond;

@@ -77,22 +77,12 @@ Vector symmetric_eigenvalues(const Matrix& A) {
   return Eigen::SelfAdjointEigenSolver<Matrix>(A, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-namespace {
-
-template <int N>
-Vector fixed_size_eigenvalues(const Matrix& A) {
-  using Square = Eigen::Matrix<double, N, N>;
-  const Square symmetric = 0.5 * (A + A.transpose());
-  return Eigen::SelfAdjointEigenSolver<Square>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
-}
-
-}  // namespace
-
 Vector body_eigenvalues(const Matrix& A) {
-  return A.rows() == 2   ? fixed_size_eigenvalues<2>(A)
-         : A.rows() == 3 ? fixed_size_eigenvalues<3>(A)
-         : A.rows() == 6 ? fixed_size_eigenvalues<6>(A)
-                         : symmetric_eigenvalues(0.5 * (A + A.transpose()));
+  if (A.rows() > SmallMatrix::MaxRowsAtCompileTime)
+    return symmetric_eigenvalues(0.5 * (A + A.transpose()));
+  const SmallMatrix symmetric = 0.5 * (A + A.transpose());
+  return Eigen::SelfAdjointEigenSolver<SmallMatrix>(symmetric, Eigen::EigenvaluesOnly)
+      .eigenvalues();
 }
 
 Vector eigenvalues_of_pair(const Matrix& A, const Matrix& B) {

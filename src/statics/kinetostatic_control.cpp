@@ -226,7 +226,8 @@ bool put_deflections(const System& system, const System& straight, const Control
     if (std::abs(force - spring.law.torque(spring.law.segment_at(from), from)) > most) {
       const auto found = coordinate_of_torque(spring.law, force, from);
       if (!found) {
-        if (forces_are_known && never_falls(spring.law)) s.unable = {spring.coordinate, force};
+        if (forces_are_known && never_falls(spring.law))
+          s.unable = UnableDrive{spring.coordinate, force};
         return false;
       }
       to = *found;
@@ -318,7 +319,7 @@ bool solve_control(const System& system, ControlSolver& solver, const Vector& ta
 bool solve_control_globally(const System& system, ControlSolver& solver) {
   const Vector z = solver.z;
   const Inputs inputs = solver.inputs;
-  solver.unable = {};
+  solver.unable.reset();
   if (solve_from_state(system, solver)) return true;
   ControlSolver asked = solver;
   asked.z = z;
@@ -328,7 +329,7 @@ bool solve_control_globally(const System& system, ControlSolver& solver) {
     solver = std::move(asked);
     return true;
   }
-  solver.unable = std::move(asked.unable);
+  solver.unable = asked.unable;
   return false;
 }
 

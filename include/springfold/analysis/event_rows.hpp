@@ -5,6 +5,9 @@
 
 namespace springfold::analysis {
 
+/// From a row of a branch to the next one that way.
+inline constexpr std::size_t row_ahead = 1, row_back = static_cast<std::size_t>(-1);
+
 /// Do branches meet in an event of this kind? A chain that is stretched out where its branch meets another (KS) changes
 /// nothing about that.
 inline bool is_meeting_of_branches(EventKind kind) {

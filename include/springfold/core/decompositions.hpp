@@ -100,7 +100,8 @@ struct SymmetricEigen {
 SymmetricEigen symmetric_eigen(const Matrix& A);
 /// Ascending.
 Vector symmetric_eigenvalues(const Matrix& A);
-/// Of the symmetric part of the matrix of one body: 2, 3 or 6 rows take no memory from the heap but the result.
+/// Of the symmetric part of the matrix of one body: a few rows (SmallMatrix) take no memory from the heap but the
+/// result.
 Vector body_eigenvalues(const Matrix& A);
 
 /// Ascending lambda with A v = lambda B v for symmetric A and positive definite B, of which the lower triangles are

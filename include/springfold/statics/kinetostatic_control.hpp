@@ -2,6 +2,8 @@
 // is in equilibrium with prescribed pose coordinates at a target (paper Section 5).
 #pragma once
 
+#include <optional>
+
 #include "springfold/statics/kinematics.hpp"
 #include "springfold/statics/stiffness.hpp"
 
@@ -20,8 +22,8 @@ enum class ControlStatus {
 
 /// A drive whose spring has nowhere the force that the equilibrium asks of it.
 struct UnableDrive {
-  Index coordinate = -1;  ///< of its spring, in z; -1: none
-  double force = 0;       ///< that is asked
+  Index coordinate = 0;  ///< of its spring, in z
+  double force = 0;      ///< that is asked
 };
 
 /// Storage and last solution of the on-line solver; it belongs to one thread. After the first solve
@@ -36,7 +38,8 @@ struct ControlSolver {
   int iterations = 0;             ///< of the last solve
   bool globalised = false;        ///< KINSOL was needed (solve_control_globally)
   double residual = 0;            ///< largest entry of the equilibrium residual after it
-  UnableDrive unable{};           ///< why there is no solution (solve_control_globally)
+  /// Why there is no solution, where that is known (solve_control_globally).
+  std::optional<UnableDrive> unable{};
   Workspace work{};
   Vector r{}, step{};
   Matrix A{}, dR_drho{}, M{};
@@ -100,7 +103,8 @@ struct ControlResult {
   Stability stability{};    ///< at the solution
   Index worst_row = 0;      ///< not_held: row of the residual that misses most ...
   double miss = 0;          ///< ... and by how much
-  UnableDrive unable{};     ///< not_held: a drive whose spring cannot have the force that it takes
+  /// not_held: a drive whose spring cannot have the force that it takes.
+  std::optional<UnableDrive> unable{};
 };
 
 /// Commands for a target, from the plain inverse kinematics.
