@@ -58,15 +58,15 @@ bool cross_cluster(const Following& following, Anchor& anchor, Progress& progres
   return false;
 }
 
-/// Does a step from a kept point, `times` as long as the anchor's, end behind what has been reached?
-bool leads_beyond(double reached, const Anchor& anchor, const Curve& curve, std::size_t points,
+/// Does a step from a kept point, `times` as long as the refused one, end behind what has been reached?
+bool leads_beyond(double reached, const RefusedStep& anchor, const Curve& curve, std::size_t points,
                   double times) {
   return curve.points[points - 1].s + times * anchor.before.ds > reached;
 }
 
-/// One step from a kept point, `times` as long as the anchor's, which must resolve everything on it.
+/// One step from a kept point, `times` as long as the refused one, which must resolve everything on it.
 /// @param find  it must find something: otherwise it only ends nearer to what the others could not tell
-std::optional<Outcome> step_over_from(const Following& following, const Anchor& anchor,
+std::optional<Outcome> step_over_from(const Following& following, const RefusedStep& anchor,
                                       std::size_t points, double times, bool find,
                                       Progress& progress, Curve& curve) {
   Progress longer = anchor.before;
@@ -117,7 +117,7 @@ std::optional<Outcome> step_of_like_length(const Following& following, Anchor& a
 }
 
 /// On steps on which rounding hides the special points nothing can be told of them: longer ones are tried.
-std::optional<Outcome> step_over(const Following& following, const Anchor& anchor,
+std::optional<Outcome> step_over(const Following& following, const RefusedStep& anchor,
                                  Progress& progress, Curve& curve) {
   const double reached = progress.here.s;
   const std::size_t last = curve.points.size();
@@ -157,20 +157,24 @@ void forget_last_step(double astray_at, Curve& curve) {
 }  // namespace
 
 void Anchor::note(const Refusal& refused, const Progress& progress, const Curve& curve) {
-  if (refused.special && !set)
-    *this = {.before = progress,
-             .points = curve.points.size(),
-             .hits = curve.hits.size(),
-             .set = true,
-             .back_from = back_from,
-             .elsewhere = elsewhere};
+  if (refused.special && !set) {
+    before = progress;
+    points = curve.points.size();
+    hits = curve.hits.size();
+    set = true;
+  }
+  if (refused.special && !first) first = *this;
+  if (refused.special) refused_to = std::max(refused_to, progress.here.s + progress.ds);
   passing = passing || refused.passing;
   if (set && (refused.special || refused.astray)) ++refusals;
 }
 
 void Anchor::release(const Progress& progress, const Curve& curve) {
-  if (set && (curve.hits.size() != hits || progress.here.s > before.here.s + before.ds))
-    *this = {.back_from = back_from, .elsewhere = elsewhere};
+  const bool found = curve.hits.size() != hits;
+  if (found || passing || progress.here.s > refused_to) first.reset();
+  if (!found && progress.here.s <= before.here.s + before.ds) return;
+  set = tried = passing = false;
+  refusals = 0;
 }
 
 std::optional<Outcome> step_elsewhere(const Following& following, const Refusal& refused,
@@ -183,6 +187,8 @@ std::optional<Outcome> step_elsewhere(const Following& following, const Refusal&
     return step_of_like_length(following, anchor, progress, curve);
   if (progress.ds >= unresolved_length) return std::nullopt;
   if (const auto outcome = step_over(following, anchor, progress, curve)) return outcome;
+  if (anchor.first && anchor.first->points < anchor.points && anchor.first->before.left.empty())
+    if (const auto outcome = step_over(following, *anchor.first, progress, curve)) return outcome;
   anchor.tried = true;
   return cross_cluster(following, anchor, progress, curve) ? std::optional(Outcome::go_on)
                                                            : std::nullopt;

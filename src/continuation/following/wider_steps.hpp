@@ -7,19 +7,28 @@
 
 namespace springfold::continuation {
 
-/// Where special points made a step too long first.
-struct Anchor {
+/// A step that special points made too long, and how many points the curve had before it.
+struct RefusedStep {
   Progress before{};
-  std::size_t points = 0, hits = 0;
+  std::size_t points = 0;
+};
+
+/// Where special points made a step too long first, and where the steps before it began to be: what rounding hides may
+/// be wider than the last of them, so that none of about its length leads beyond.
+struct Anchor : RefusedStep {
+  std::size_t hits = 0;
   bool set = false, tried = false;
   bool passing = false;   ///< branches pass each other there: nothing is crossed in one step
   int refusals = 0;       ///< of steps there, because of what lies on them or where they end
   double back_from = -1;  ///< up to this arc length no step begins once more behind the anchor
   int elsewhere = 0;      ///< how often steps that end elsewhere were tried on the curve
+  std::optional<RefusedStep> first{};  ///< of the steps that were refused one after the other
+  double refused_to = -1;              ///< as far as any of these reached
 
   /// Takes note of a step that was refused.
   void note(const Refusal& refused, const Progress& progress, const Curve& curve);
-  /// Lets go where something was found, or the step that was refused lies behind.
+  /// Lets go of a step that was refused where it lies behind, and of the first one where something was found or all
+  /// that were refused lie behind.
   void release(const Progress& progress, const Curve& curve);
 };
 
