@@ -32,7 +32,7 @@ rm -rf "$work/corpus"
 mkdir "$work/corpus"
 cp -r cases docs/examples "$work/corpus/"
 
-export ASAN_OPTIONS=abort_on_error=1:detect_leaks=0:allocator_may_return_null=0:max_allocation_size_mb=4000:malloc_context_size=2:handle_sigill=1
+export ASAN_OPTIONS=abort_on_error=1:detect_leaks=0:allocator_may_return_null=0:max_allocation_size_mb=4000:$sanitizer_options
 code=0
 for kind in "${kinds[@]}"; do
   nice -n 10 build/sanitize/springfold_fuzz "$kind" --corpus "$work/corpus" --work "$work" --seed "$seed" \

@@ -47,8 +47,7 @@ run_tests() {
     must_exist "$left_out"
   fi
   local -x GTEST_FILTER="-$left_out"
-  # Two frames of where memory was asked for are enough to begin with; thirty take a seventh of the time.
-  local -x ASAN_OPTIONS="${ASAN_OPTIONS:-malloc_context_size=2:handle_sigill=1}"
+  local -x ASAN_OPTIONS="${ASAN_OPTIONS:-$sanitizer_options}"
   export LSAN_OPTIONS="suppressions=$PWD/tests/leaks_of_libraries.txt:print_suppressions=0"
   find build/sanitize/tests -maxdepth 1 -name 'springfold_*_tests' | sort |
     while read -r program; do

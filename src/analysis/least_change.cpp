@@ -3,6 +3,7 @@
 #include <nlopt.h>
 
 #include <cmath>
+#include <compare>
 #include <exception>
 #include <memory>
 #include <vector>
@@ -22,27 +23,33 @@ constexpr int most_evaluations = 250, most_rough_evaluations = 40;
 constexpr int most_without_progress = 40;
 constexpr double progress_of_violation = 0.5, progress_of_objective = 1e-3;
 
-/// The best point of a search, feasible ones first, and when the last one came that was much better than before.
+/// What a search has got at a point: first of all it has to meet the inequalities, then the objective counts.
+struct Reached {
+  double violation = HUGE_VAL, f = HUGE_VAL;
+  auto operator<=>(const Reached&) const = default;
+};
+
+/// Is `now` so much better than `before` that the search is getting on?
+bool is_progress(const Reached& now, const Reached& before) {
+  if (now.violation > 0) return now.violation < progress_of_violation * before.violation;
+  return before.violation > 0 || now.f < before.f - progress_of_objective * std::abs(before.f);
+}
+
+/// The best point of a search, and how many evaluations have brought no progress since the last one that did.
 struct Progress {
   Vector x{};
-  double violation = HUGE_VAL, f = HUGE_VAL;
-  double known_violation = HUGE_VAL, known_f = HUGE_VAL;  ///< of the last much better one
+  Reached best{}, known{};
   int without = 0;
 
   void note(const Vector& at, const InequalityValues& values) {
     const double largest = values.g.size() > 0 ? values.g.maxCoeff() : 0;
-    const double missed = largest > allowed_violation ? largest : 0;
-    if (missed < violation || (missed == violation && values.f < f)) {
+    const Reached here{largest > allowed_violation ? largest : 0, values.f};
+    if (here < best) {
       x = at;
-      violation = missed;
-      f = values.f;
+      best = here;
     }
-    const bool meets_more = violation < progress_of_violation * known_violation;
-    const bool costs_less = violation == 0 && known_violation == 0 &&
-                            f < known_f - progress_of_objective * std::abs(known_f);
-    if (!meets_more && !costs_less) return;
-    known_violation = violation;
-    known_f = violation == 0 ? f : HUGE_VAL;
+    if (!is_progress(best, known)) return;
+    known = best;
     without = 0;
   }
 };

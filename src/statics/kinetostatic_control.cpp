@@ -164,16 +164,27 @@ Index worst_row_of(const System& system, const ControlSolver& s) {
   return worst;
 }
 
+/// Where a solver begins.
+struct Guess {
+  Vector z{};
+  Inputs inputs{};
+};
+
+Guess guess_of(const ControlSolver& solver) { return {solver.z, solver.inputs}; }
+
+void begin_at(const Guess& guess, ControlSolver& solver) {
+  solver.z = guess.z;
+  solver.inputs = guess.inputs;
+}
+
 /// Newton's method, then KINSOL and Newton's method.
-bool solve_from_state(const System& system, ControlSolver& solver) {
-  const Vector z = solver.z;
-  const Inputs inputs = solver.inputs;
+/// @param start  that of the solver, to begin there again
+bool solve_from(const Guess& start, const System& system, ControlSolver& solver) {
   solver.globalised = false;
   if (newton(system, solver)) return true;
   const int wasted = solver.iterations;
   solver.globalised = true;
-  solver.z = z;
-  solver.inputs = inputs;
+  begin_at(start, solver);
   const auto n = static_cast<Index>(solver.unknowns.size());
   const auto put = [&](const Vector& y) {
     for (std::size_t k = 0; k < solver.unknowns.size(); ++k)
@@ -247,13 +258,13 @@ bool solve_by_forces(const System& system, ControlSolver& solver) {
   const std::vector<AskedSpring> asked = asked_springs(system, solver);
   if (asked.empty()) return false;
   const System straight = straightened(system, start, asked);
-  if (!solve_from_state(straight, solver)) return false;
+  if (!solve_from(guess_of(start), straight, solver)) return false;
   const int spent = solver.iterations;
   if (!put_deflections(system, straight, start, asked, solver) || !evaluate(system, solver))
     return false;
   solver.residual = solver.r.lpNorm<Eigen::Infinity>();
   if (is_solved(system, solver)) return true;
-  const bool solved = solve_from_state(system, solver);
+  const bool solved = solve_from(guess_of(solver), system, solver);
   solver.iterations += spent;
   return solved;
 }
@@ -317,13 +328,11 @@ bool solve_control(const System& system, ControlSolver& solver, const Vector& ta
 }
 
 bool solve_control_globally(const System& system, ControlSolver& solver) {
-  const Vector z = solver.z;
-  const Inputs inputs = solver.inputs;
+  const Guess start = guess_of(solver);
   solver.unable.reset();
-  if (solve_from_state(system, solver)) return true;
+  if (solve_from(start, system, solver)) return true;
   ControlSolver asked = solver;
-  asked.z = z;
-  asked.inputs = inputs;
+  begin_at(start, asked);
   if (solve_by_forces(system, asked)) {
     asked.iterations += solver.iterations;
     solver = std::move(asked);
