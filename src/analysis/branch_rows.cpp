@@ -13,6 +13,7 @@
 #include "null_modes.hpp"
 #include "row_indices.hpp"
 #include "springfold/analysis/event_rows.hpp"
+#include "springfold/continuation/numerics.hpp"
 #include "switch_words.hpp"
 
 namespace springfold::analysis {
@@ -37,9 +38,15 @@ bool turns_back(const Event& event, const std::vector<QuantityDefinition>& quant
   return false;
 }
 
-/// Does lambda turn back where branches meet? The point is called after these.
+/// Does lambda turn back where branches meet? The point is called after these. Along a family it stands still, and what
+/// its rows differ by is rounding.
 bool lambda_turns(const CurvePoint& before, const CurvePoint& here, const CurvePoint& behind) {
-  return (here.lambda - before.lambda) * (behind.lambda - here.lambda) < 0;
+  const double rise = here.lambda - before.lambda, rise_behind = behind.lambda - here.lambda;
+  const double size =
+      std::max({std::abs(before.lambda), std::abs(here.lambda), std::abs(behind.lambda)});
+  const bool stands_still =
+      continuation::is_exact(std::min(std::abs(rise), std::abs(rise_behind)), size);
+  return !stands_still && (rise < 0) != (rise_behind < 0);
 }
 
 /// Both curves as one, from the backward end on; nothing where their arcs were not tested.
