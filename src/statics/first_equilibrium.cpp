@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include "come_to_rest.hpp"
@@ -15,6 +14,7 @@
 #include "springfold/statics/kinetostatic_control.hpp"
 #include "springfold/statics/prepare_again.hpp"
 #include "stage_newton.hpp"
+#include "whole_turns.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -74,7 +74,8 @@ double solve_from(StartEquations& equations, StartState& state, int& iterations)
                             [&](const Vector& y, Matrix& J) {
                               equations.unpack(y, trial);
                               return equations.jacobian(trial, J);
-                            }};
+                            },
+                            equations.angles()};
   const KinsolResult solved = solve_by_kinsol(square, equations.pack(state), 1e-9, 5.0);
   equations.unpack(solved.y, state);
   iterations = solved.iterations;
@@ -89,23 +90,6 @@ void perturb(StartEquations& equations, StartState& state, int attempt, std::mt1
     if (!equations.is_wrench(i)) y[i] += size * (2 * uniform - 1);
   }
   equations.unpack(y, state);
-}
-
-/// Near a whole turn rotation vectors are singular: J_l^T m = 0 says nothing there about moments across
-/// the axis. The same rotation by a vector of less than half a turn does.
-/// @returns whether one had to be shortened
-bool shorten_turns(const System& system, Vector& z) {
-  constexpr double near_whole_turn = 345 * std::numbers::pi / 180, turn = 2 * std::numbers::pi;
-  bool changed = false;
-  for (std::size_t b = 0; b < system.body_slices.size(); ++b) {
-    if (system.mechanism.bodies[b].task_space != model::TaskSpace::spatial) continue;
-    auto phi = z.segment(system.body_slices[b].t + 3, 3);
-    const double angle = phi.norm();
-    if (!(angle > near_whole_turn) || !std::isfinite(angle)) continue;
-    phi *= std::remainder(angle, turn) / angle;
-    changed = true;
-  }
-  return changed;
 }
 
 /// Systems with more unknowns are not solved with matrices of entries.

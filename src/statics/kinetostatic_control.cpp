@@ -8,15 +8,15 @@
 #include "springfold/core/rounding.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
 #include "springfold/statics/shapes.hpp"
+#include "start_equations.hpp"
 #include "straight_drives.hpp"
 
 namespace springfold::statics {
 namespace {
 
 constexpr int most_iterations = 12;
-constexpr double solved_to = 1e-12;   // of the residual, scaled as in is_solved
-constexpr double last_step = 1e-8;    // after such a step Newton's error is below rounding
-constexpr double longest_newton = 3;  // of a coordinate: plain Newton is lost, KINSOL takes over
+constexpr double solved_to = 1e-12;  // of the residual, scaled as in is_solved
+constexpr double last_step = 1e-8;   // after such a step Newton's error is below rounding
 
 /// Solves M x = b by elimination with row exchanges in place: b becomes x. Allocates nothing.
 bool solve_in_place(Matrix& M, Vector& b) {
@@ -193,6 +193,9 @@ bool solve_from(const Guess& start, const System& system, ControlSolver& solver)
   Vector y(n);
   for (std::size_t k = 0; k < solver.unknowns.size(); ++k)
     y[static_cast<Index>(k)] = unknown(system, solver, k);
+  std::vector<Index> angles;
+  for (Index k = 0; k < n; ++k)
+    if (is_angle(system, solver.unknowns[static_cast<std::size_t>(k)])) angles.push_back(k);
   const SquareSystem square{n,
                             [&](const Vector& at, Vector& r) {
                               put(at);
@@ -206,7 +209,8 @@ bool solve_from(const Guess& start, const System& system, ControlSolver& solver)
                               fill_matrix(system, solver);
                               J = solver.M;
                               return finite;
-                            }};
+                            },
+                            angles};
   const KinsolResult found = solve_by_kinsol(square, y, 1e-9, 5.0);
   put(found.y);
   const ControlSolver before = solver;

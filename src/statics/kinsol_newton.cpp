@@ -7,6 +7,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include "springfold/core/c_handles.hpp"
+#include "whole_turns.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -80,6 +81,7 @@ KinsolResult solve_by_kinsol(const SquareSystem& system, const Vector& start, do
   result.iterations = static_cast<int>(iterations);
   result.y = view(y.get());
   result.converged = flag >= 0 && flag != KIN_STEP_LT_STPTOL && result.y.allFinite();
+  if (result.y.allFinite()) take_back_turns(system, start, result.y);
   return result;
 }
 

@@ -101,7 +101,7 @@ double polish(StartEquations& equations, StartState& state, int& iterations) {
     reached.push_back(state);
     residual = size;
     way = next;
-    if (!(falls || comes_nearer) || !std::isfinite(next)) break;
+    if (!(falls || comes_nearer) || !(next <= longest_newton)) break;
     equations.unpack(equations.pack(state) - step, state);
     ++iterations;
   }

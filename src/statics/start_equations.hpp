@@ -11,6 +11,9 @@
 
 namespace springfold::statics {
 
+/// Of a coordinate in one step: beyond, Newton's method without a search along its steps is lost, and may end anywhere.
+constexpr double longest_newton = 3;
+
 /// Which entries of (z, rho) are unknown and which rows of the residual must vanish.
 struct StartSelection {
   std::vector<Index> unknowns{};  ///< numbers >= system.size are commands
@@ -31,6 +34,14 @@ inline StartSelection start_selection(const System& system, const StartProblem& 
   if (problem.unknowns == StartUnknowns::commands)
     for (Index i = 0; i < problem.inputs.rho.size(); ++i) s.unknowns.push_back(system.size + i);
   return s;
+}
+
+/// Of the unknowns, and behind them the commands.
+inline bool is_angle(const System& system, Index unknown) {
+  if (unknown >= system.size)
+    return !system.command_is_length[static_cast<std::size_t>(unknown - system.size)];
+  const auto i = static_cast<std::size_t>(unknown);
+  return !system.is_wrench[i] && !system.is_length[i];
 }
 
 struct StartState {
@@ -86,6 +97,13 @@ class StartEquations {
   bool is_pose(Index unknown) const {
     const Index k = selection_.unknowns[static_cast<std::size_t>(unknown)];
     return k >= system_.first_pose && k < system_.size;
+  }
+
+  std::vector<Index> angles() const {
+    std::vector<Index> angles;
+    for (std::size_t i = 0; i < selection_.unknowns.size(); ++i)
+      if (is_angle(system_, selection_.unknowns[i])) angles.push_back(static_cast<Index>(i));
+    return angles;
   }
 
   bool residual(const StartState& state, Vector& r) {
