@@ -130,7 +130,8 @@ class StartEquations {
   /// force: each row that of its own terms. (Those of a bar that has shrunk to no length would excuse every other row.)
   bool cancels_to_rounding(const StartState& state, const Vector& r, double tolerance) {
     Matrix J;
-    if (!(largest(r, true) <= tolerance) || !jacobian(state, J)) return false;
+    if (!(largest(r, true) <= tolerance) || pulls_nowhere(state) || !jacobian(state, J))
+      return false;
     Vector sizes = pack(state).cwiseAbs();
     for (Index i = 0; i < sizes.size(); ++i)
       if (!is_wrench(i)) sizes[i] = std::max(1.0, sizes[i]);
@@ -193,6 +194,16 @@ class StartEquations {
       if (system_.is_wrench[static_cast<std::size_t>(i)] == wrenches)
         size = std::max(size, std::abs(state.z[i]));
     return size;
+  }
+
+  /// Is a line spring as short as rounding, so that its force has no direction? It would excuse all rows of its ends.
+  bool pulls_nowhere(const StartState& state) const {
+    const double rounding = few_roundings * size_of(state, false);
+    for (std::size_t i = 0; i < system_.line_springs.size(); ++i)
+      if (system_.line_springs[i].free != 0 &&
+          line_spring_state(system_, i, state.z, state.inputs.rho).length <= rounding)
+        return true;
+    return false;
   }
 
   /// Largest entry in the rows of the closures, or in those of the forces.

