@@ -70,15 +70,24 @@ class Searcher {
                         const Observer& observer) {
     if (is_solution) add({start, piece, ""});
     std::mt19937_64 random(study_.search.seed);
-    for (; result_.starts < study_.search.starts && !result_.limit_reached; ++result_.starts) {
+    for (int wanted = study_.search.starts; result_.starts < wanted && !result_.limit_reached;) {
       result_.interrupted = observer && !observer(result_.starts, 0);
       if (result_.interrupted) break;
+      const std::size_t known = result_.found.size();
       search_from(result_.starts == 0 ? start : next_start(random));
+      ++result_.starts;
+      if (result_.found.size() > known) wanted = std::max(wanted, wanted_behind(result_.starts));
     }
     return std::move(result_);
   }
 
  private:
+  /// A search whose last find came late has hardly found all: it takes as many starts again as it took up to there.
+  int wanted_behind(int starts) const {
+    constexpr int most = 4;  // times what is asked for
+    return static_cast<int>(std::min(2L * starts, static_cast<long>(most) * study_.search.starts));
+  }
+
   /// Newton's method as it is, then driven away from everything that is known.
   void search_from(const Vector& from) {
     continuation::SearchOptions options{.low = from - box_.side / 2,

@@ -130,7 +130,7 @@ class StartEquations {
   /// force: each row that of its own terms. (Those of a bar that has shrunk to no length would excuse every other row.)
   bool cancels_to_rounding(const StartState& state, const Vector& r, double tolerance) {
     Matrix J;
-    if (!(largest(r, true) <= tolerance) || pulls_nowhere(state) || !jacobian(state, J))
+    if (!(largest(r, true) <= tolerance) || pulls_nowhere(state, tolerance) || !jacobian(state, J))
       return false;
     Vector sizes = pack(state).cwiseAbs();
     for (Index i = 0; i < sizes.size(); ++i)
@@ -196,12 +196,12 @@ class StartEquations {
     return size;
   }
 
-  /// Is a line spring as short as rounding, so that its force has no direction? It would excuse all rows of its ends.
-  bool pulls_nowhere(const StartState& state) const {
-    const double rounding = few_roundings * size_of(state, false);
+  /// Is a line spring so short that its force has no known direction? It would excuse all rows of its ends.
+  bool pulls_nowhere(const StartState& state, double tolerance) const {
+    const double shortest = tolerance * size_of(state, false);
     for (std::size_t i = 0; i < system_.line_springs.size(); ++i)
       if (system_.line_springs[i].free != 0 &&
-          line_spring_state(system_, i, state.z, state.inputs.rho).length <= rounding)
+          line_spring_state(system_, i, state.z, state.inputs.rho).length <= shortest)
         return true;
     return false;
   }
