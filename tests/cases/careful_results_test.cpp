@@ -2,9 +2,11 @@
 // marks at the start, counts that change while a body is held, starts that fail.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "case_runs.hpp"
+#include "springfold/analysis/equilibrium_notes.hpp"
 #include "springfold/io/results.hpp"
 #include "springfold/io/start_text.hpp"
 
@@ -143,8 +145,15 @@ elements = [{ rigid = [0, 0] }]
   ASSERT_THAT(critical, SizeIs(1));
   EXPECT_NEAR(critical[0], 4, 1e-9);
   EXPECT_EQ(lambdas(plain.of("press"), EventKind::branch_point).size(), 1u);
-  ASSERT_TRUE(welded.of("all").equilibria.has_value());
-  EXPECT_EQ(welded.of("all").equilibria->list.size(), plain.of("all").equilibria->list.size());
+  // 4 t = 5 sin t has three solutions, and hanging is the fourth. Folded bars turn about the foot as they like.
+  for (const Ran* ran : {&plain, &welded}) {
+    ASSERT_TRUE(ran->of("all").equilibria.has_value());
+    EXPECT_EQ(std::ranges::count_if(ran->of("all").equilibria->list,
+                                    [](const analysis::Equilibrium& e) {
+                                      return !e.note.starts_with(analysis::family_note);
+                                    }),
+              4);
+  }
 }
 
 /// A point that slides freely, or is held by as many bars, on springs from three feet.
