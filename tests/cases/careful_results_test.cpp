@@ -122,7 +122,7 @@ until = { lambda = [0, 10] }
 name = "all"
 body = "tip"
 kind = "equilibria"
-search = { starts = 100 }
+search = { starts = 25 }
 load = [0, -5]
 )toml";
 }
