@@ -64,10 +64,20 @@ struct Leaving {
   bool is_flat = false;  ///< no force above rounding
 };
 
-/// The nearest force above rounding tells whether the state is left. Where it turns back before a push of the usual
-/// size, a stable state lies nearer than that, and the push ends before it.
+/// The force along a push that the load's error makes.
+double force_of(const LoadError& load, const Landscape& landscape, const Vector& x,
+                const Vector& along) {
+  if (!(load.lambda > 0)) return 0;
+  const auto piece = landscape.piece_at(x);
+  if (!piece) return 0;
+  const Vector rate = load.rate(x, *piece);
+  return rate.size() > 0 ? load.lambda * std::abs(rate.dot(along)) : 0;
+}
+
+/// The nearest force above rounding and the load's error tells whether the state is left. Where it turns back before a
+/// push of the usual size, a stable state lies nearer than that, and the push ends before it.
 Leaving leave_along(const Landscape& landscape, const Vector& critical, const Vector& along,
-                    double noise) {
+                    double rounding, const LoadError& load) {
   constexpr double least_push = push_size / 1024;
   // The critical state is off by as much as its load: nearer than a push of the usual size only what is far clear
   // counts.
@@ -78,6 +88,7 @@ Leaving leave_along(const Landscape& landscape, const Vector& critical, const Ve
     const bool usual = a >= push_size;
     if (!at && usual) break;
     if (!at) continue;
+    const double noise = rounding + force_of(load, landscape, at->x, along);
     if (!(std::abs(at->force) > (usual ? 1 : far_clear) * noise)) continue;
     if (at->force < 0) return outward;
     if (usual)
@@ -106,7 +117,7 @@ Departure shortened(const Landscape& landscape, const Vector& critical, const De
 }
 
 Departures departures(const Landscape& landscape, const Vector& critical,
-                      const std::vector<Piece>& pieces) {
+                      const std::vector<Piece>& pieces, const LoadError& load) {
   Departures result;
   for (const Piece& piece : pieces) {
     const double noise = noise_of_force(landscape, critical, piece);
@@ -117,7 +128,7 @@ Departures departures(const Landscape& landscape, const Vector& critical,
             std::any_of(result.list.begin(), result.list.end(),
                         [&](const Departure& other) { return other.along.dot(along) > 0.999; });
         if (known) continue;
-        const Leaving leaving = leave_along(landscape, critical, along, noise);
+        const Leaving leaving = leave_along(landscape, critical, along, noise, load);
         if (leaving.at) result.list.push_back({side, along, leaving.at->x, leaving.amplitude});
         result.is_flat |= leaving.is_flat;
       }

@@ -19,16 +19,24 @@ struct Departure {
 
 struct Departures {
   std::vector<Departure> list{};
-  bool is_flat = false;  ///< in some direction the energy does not change beyond rounding
+  bool is_flat =
+      false;  ///< in some direction the energy does not change beyond rounding and the load's error
+};
+
+/// How well the load of a critical state is known, and which forces that makes.
+struct LoadError {
+  double lambda = 0;  ///< lambda may be off by so much [dimensionless]
+  /// dF/dlambda by the moving unknowns at a state, on a piece; empty where it is not defined.
+  std::function<Vector(const Vector& x, const Piece& piece)> rate{};
 };
 
 /// Leaves a critical state along its modes without stiffness, both ways; at a corner along the unstable
 /// modes of the pieces around it. For every amplitude along the mode all other motions are brought to
 /// rest; where the energy falls from there, the state is left. The sign is read where the force along
-/// the mode first exceeds rounding, from `push_size` on.
+/// the mode first exceeds rounding and what the load's error makes of it, from `push_size` on.
 /// @param pieces  those on both sides of the point
 Departures departures(const Landscape& landscape, const Vector& critical,
-                      const std::vector<Piece>& pieces);
+                      const std::vector<Piece>& pieces, const LoadError& load);
 
 /// The same departure with a smaller push: a thousandth of the straight way to where it leads, or as little more as the
 /// force along the mode is above rounding.

@@ -11,6 +11,7 @@
 #include "inertia.hpp"
 #include "leg_angles.hpp"
 #include "limits.hpp"
+#include "load_error.hpp"
 #include "springfold/analysis/event_rows.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "start.hpp"
@@ -45,7 +46,8 @@ class Jumper {
     Vector critical = frozen.reduced(unknowns_in(at, t_.quantities, size_));
     if (!landscape.close(critical)) return doubt(event, "its closures do not hold");
     const Departures ways =
-        departures(landscape, critical, pieces_beside(frozen, branch, event, critical));
+        departures(landscape, critical, pieces_beside(frozen, branch, event, critical),
+                   error_of_load(t_, event, landscape, lambda));
     if (ways.is_flat)
       doubt(event, "the energy is flat there to rounding: whether it jumps is not decided");
     if (ways.list.empty()) return;

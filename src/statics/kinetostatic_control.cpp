@@ -8,8 +8,8 @@
 #include "springfold/core/rounding.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
 #include "springfold/statics/shapes.hpp"
-#include "start_equations.hpp"
 #include "straight_drives.hpp"
+#include "unknowns.hpp"
 
 namespace springfold::statics {
 namespace {
@@ -164,22 +164,17 @@ Index worst_row_of(const System& system, const ControlSolver& s) {
   return worst;
 }
 
-/// Where a solver begins.
-struct Guess {
-  Vector z{};
-  Inputs inputs{};
-};
+/// Where the solver begins.
+StartState start_of(const ControlSolver& solver) { return {solver.z, solver.inputs}; }
 
-Guess guess_of(const ControlSolver& solver) { return {solver.z, solver.inputs}; }
-
-void begin_at(const Guess& guess, ControlSolver& solver) {
-  solver.z = guess.z;
-  solver.inputs = guess.inputs;
+void begin_at(const StartState& start, ControlSolver& solver) {
+  solver.z = start.z;
+  solver.inputs = start.inputs;
 }
 
 /// Newton's method, then KINSOL and Newton's method.
 /// @param start  that of the solver, to begin there again
-bool solve_from(const Guess& start, const System& system, ControlSolver& solver) {
+bool solve_from(const StartState& start, const System& system, ControlSolver& solver) {
   solver.globalised = false;
   if (newton(system, solver)) return true;
   const int wasted = solver.iterations;
@@ -224,35 +219,6 @@ bool solve_from(const Guess& start, const System& system, ControlSolver& solver)
   return solved;
 }
 
-/// The deflections with which springs have the forces that they have in the state, and commands that differ by as much:
-/// the places of the drives stay.
-/// @param s  a solution with the straight laws of `straight`
-bool put_deflections(const System& system, const System& straight, const ControlSolver& start,
-                     const std::vector<AskedSpring>& asked, ControlSolver& s) {
-  const double most = most_left(system, s, false);
-  const bool forces_are_known = std::all_of(
-      asked.begin(), asked.end(), [](const AskedSpring& one) { return one.command >= 0; });
-  for (const AskedSpring& one : asked) {
-    const CoordinateSpring& spring = system.springs[one.spring];
-    const double here = s.z[spring.coordinate], from = start.z[spring.coordinate];
-    const double force = straight.springs[one.spring].law.torque(0, here);
-    // Where the law has the force along a whole segment the spring stays where it stood, if that is in it.
-    double to = from;
-    if (std::abs(force - spring.law.torque(spring.law.segment_at(from), from)) > most) {
-      const auto found = coordinate_of_torque(spring.law, force, from);
-      if (!found) {
-        if (forces_are_known && never_falls(spring.law))
-          s.unable = UnableDrive{spring.coordinate, force};
-        return false;
-      }
-      to = *found;
-    }
-    s.z[spring.coordinate] = to;
-    if (one.command >= 0) s.inputs.rho[one.command] += here - to;
-  }
-  return true;
-}
-
 /// Which force a drive must have is a matter of the equilibrium alone: it is the same whatever the law of its spring.
 /// So it is looked for with straight laws, and the laws tell the deflections that belong to the forces: Newton's method
 /// would have to find its way out of segments in which forces do not depend on deflections. For springs that are no
@@ -262,13 +228,13 @@ bool solve_by_forces(const System& system, ControlSolver& solver) {
   const std::vector<AskedSpring> asked = asked_springs(system, solver);
   if (asked.empty()) return false;
   const System straight = straightened(system, start, asked);
-  if (!solve_from(guess_of(start), straight, solver)) return false;
+  if (!solve_from(start_of(start), straight, solver)) return false;
   const int spent = solver.iterations;
-  if (!put_deflections(system, straight, start, asked, solver) || !evaluate(system, solver))
-    return false;
+  const StraightSprings springs{straight, asked, most_left(system, solver, false)};
+  if (!put_deflections(system, springs, start, solver) || !evaluate(system, solver)) return false;
   solver.residual = solver.r.lpNorm<Eigen::Infinity>();
   if (is_solved(system, solver)) return true;
-  const bool solved = solve_from(guess_of(solver), system, solver);
+  const bool solved = solve_from(start_of(solver), system, solver);
   solver.iterations += spent;
   return solved;
 }
@@ -332,7 +298,7 @@ bool solve_control(const System& system, ControlSolver& solver, const Vector& ta
 }
 
 bool solve_control_globally(const System& system, ControlSolver& solver) {
-  const Guess start = guess_of(solver);
+  const StartState start = start_of(solver);
   solver.unable.reset();
   if (solve_from(start, system, solver)) return true;
   ControlSolver asked = solver;

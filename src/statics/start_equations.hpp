@@ -8,11 +8,9 @@
 
 #include "springfold/core/rounding.hpp"
 #include "springfold/statics/first_equilibrium.hpp"
+#include "unknowns.hpp"
 
 namespace springfold::statics {
-
-/// Of a coordinate in one step: beyond, Newton's method without a search along its steps is lost, and may end anywhere.
-constexpr double longest_newton = 3;
 
 /// Which entries of (z, rho) are unknown and which rows of the residual must vanish.
 struct StartSelection {
@@ -35,19 +33,6 @@ inline StartSelection start_selection(const System& system, const StartProblem& 
     for (Index i = 0; i < problem.inputs.rho.size(); ++i) s.unknowns.push_back(system.size + i);
   return s;
 }
-
-/// Of the unknowns, and behind them the commands.
-inline bool is_angle(const System& system, Index unknown) {
-  if (unknown >= system.size)
-    return !system.command_is_length[static_cast<std::size_t>(unknown - system.size)];
-  const auto i = static_cast<std::size_t>(unknown);
-  return !system.is_wrench[i] && !system.is_length[i];
-}
-
-struct StartState {
-  Vector z{};
-  Inputs inputs{};
-};
 
 /// The equilibrium equations in the selected unknowns; springs in the segments of the state itself.
 class StartEquations {

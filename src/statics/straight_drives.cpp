@@ -1,6 +1,7 @@
 #include "straight_drives.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace springfold::statics {
 namespace {
@@ -74,6 +75,33 @@ System straightened(const System& system, const ControlSolver& solver,
     spring.law.curves.clear();
   }
   return straight;
+}
+
+bool put_deflections(const System& system, const StraightSprings& straight,
+                     const ControlSolver& start, ControlSolver& solver) {
+  const bool forces_are_known =
+      std::all_of(straight.asked.begin(), straight.asked.end(),
+                  [](const AskedSpring& one) { return one.command >= 0; });
+  for (const AskedSpring& one : straight.asked) {
+    const CoordinateSpring& spring = system.springs[one.spring];
+    const double here = solver.z[spring.coordinate], from = start.z[spring.coordinate];
+    const double force = straight.system.springs[one.spring].law.torque(0, here);
+    const double there = spring.law.torque(spring.law.segment_at(from), from);
+    // Where the law has the force along a whole segment the spring stays where it stood, if that is in it.
+    double to = from;
+    if (std::abs(force - there) > straight.force_error) {
+      const auto found = coordinate_of_torque(spring.law, force, from);
+      if (!found) {
+        if (forces_are_known && never_falls(spring.law))
+          solver.unable = UnableDrive{spring.coordinate, force};
+        return false;
+      }
+      to = *found;
+    }
+    solver.z[spring.coordinate] = to;
+    if (one.command >= 0) solver.inputs.rho[one.command] += here - to;
+  }
+  return true;
 }
 
 System with_straight_drives(const System& system, const ControlSolver& solver) {

@@ -22,4 +22,19 @@ std::vector<AskedSpring> asked_springs(const System& system, const ControlSolver
 System straightened(const System& system, const ControlSolver& solver,
                     const std::vector<AskedSpring>& asked);
 
+/// A system with straight laws, and how well its forces are known in a solution.
+struct StraightSprings {
+  const System& system;
+  const std::vector<AskedSpring>& asked;
+  double force_error = 0;
+};
+
+/// The deflections with which the springs have the forces that they have in a solution with straight laws, and commands
+/// that differ by as much: the places of the drives stay.
+/// @param start   where the springs stood before
+/// @param solver  the solution; changed
+/// @returns false where a law never has its force: `solver.unable` tells it if the force is known
+bool put_deflections(const System& system, const StraightSprings& straight,
+                     const ControlSolver& start, ControlSolver& solver);
+
 }  // namespace springfold::statics

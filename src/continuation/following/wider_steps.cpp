@@ -48,12 +48,12 @@ bool cross_from(const Following& following, const Progress& before, double ds, P
 /// Crosses a cluster in one step from the anchor, or from a point between them that is not too near to it.
 bool cross_cluster(const Following& following, Anchor& anchor, Progress& progress, Curve& curve) {
   const double reached = progress.here.s;
-  for (std::size_t i = anchor.points; i <= curve.points.size(); ++i) {
-    Progress before = anchor.before;
+  for (std::size_t i = anchor.at.points; i <= curve.points.size(); ++i) {
+    Progress before = anchor.at.before;
     before.here = curve.points[i - 1];
-    if (i > anchor.points && reached - before.here.s < near_cluster * anchor.before.ds) break;
+    if (i > anchor.at.points && reached - before.here.s < near_cluster * anchor.at.before.ds) break;
     for (const double share : {1.0, 0.6, 0.35})
-      if (cross_from(following, before, share * anchor.before.ds, progress, curve)) return true;
+      if (cross_from(following, before, share * anchor.at.before.ds, progress, curve)) return true;
   }
   return false;
 }
@@ -98,19 +98,19 @@ std::optional<Outcome> step_of_like_length(const Following& following, Anchor& a
   const double reached = progress.here.s;
   const std::size_t last = curve.points.size();
   const auto from = [&](std::size_t points, int power) {
-    return step_over_from(following, anchor, points, times(power), true, progress, curve);
+    return step_over_from(following, anchor.at, points, times(power), true, progress, curve);
   };
   for (const int power : {0, -1, 1, -2, 2, 3})
-    for (std::size_t i = anchor.points; i <= last; ++i)
-      if (leads_beyond(reached, anchor, curve, i, times(power)))
+    for (std::size_t i = anchor.at.points; i <= last; ++i)
+      if (leads_beyond(reached, anchor.at, curve, i, times(power)))
         if (const auto outcome = from(i, power)) return outcome;
   const bool farther =
-      anchor.points > 1 && reached > anchor.back_from &&
-      (curve.hits.empty() || curve.hits.back().point.s < curve.points[anchor.points - 2].s);
+      anchor.at.points > 1 && reached > anchor.back_from &&
+      (curve.hits.empty() || curve.hits.back().point.s < curve.points[anchor.at.points - 2].s);
   if (!farther) return std::nullopt;
   for (const int power : {2, 1})
-    if (const auto outcome = from(anchor.points - 1, power)) {
-      anchor.back_from = reached + anchor.before.ds;
+    if (const auto outcome = from(anchor.at.points - 1, power)) {
+      anchor.back_from = reached + anchor.at.before.ds;
       return outcome;
     }
   return std::nullopt;
@@ -140,7 +140,7 @@ void forget_last_crawl(const Anchor& anchor, Curve& curve) {
   const auto length_of_last = [&] {
     return curve.points.back().s - curve.points[curve.points.size() - 2].s;
   };
-  while (anchor.set && curve.points.size() > std::max<std::size_t>(anchor.points, 1) &&
+  while (anchor.set && curve.points.size() > std::max<std::size_t>(anchor.at.points, 1) &&
          length_of_last() < crawl)
     curve.points.pop_back();
   for (Hit& hit : curve.hits)
@@ -158,12 +158,11 @@ void forget_last_step(double astray_at, Curve& curve) {
 
 void Anchor::note(const Refusal& refused, const Progress& progress, const Curve& curve) {
   if (refused.special && !set) {
-    before = progress;
-    points = curve.points.size();
+    at = {progress, curve.points.size()};
     hits = curve.hits.size();
     set = true;
   }
-  if (refused.special && !first) first = *this;
+  if (refused.special && !first) first = at;
   if (refused.special) refused_to = std::max(refused_to, progress.here.s + progress.ds);
   passing = passing || refused.passing;
   if (set && (refused.special || refused.astray)) ++refusals;
@@ -172,7 +171,7 @@ void Anchor::note(const Refusal& refused, const Progress& progress, const Curve&
 void Anchor::release(const Progress& progress, const Curve& curve) {
   const bool found = curve.hits.size() != hits;
   if (found || passing || progress.here.s > refused_to) first.reset();
-  if (!found && progress.here.s <= before.here.s + before.ds) return;
+  if (!found && progress.here.s <= at.before.here.s + at.before.ds) return;
   set = tried = passing = false;
   refusals = 0;
 }
@@ -180,14 +179,14 @@ void Anchor::release(const Progress& progress, const Curve& curve) {
 std::optional<Outcome> step_elsewhere(const Following& following, const Refusal& refused,
                                       Anchor& anchor, Progress& progress, Curve& curve) {
   const bool free =
-      !anchor.passing && curve.hits.size() == anchor.hits && anchor.before.left.empty();
+      !anchor.passing && curve.hits.size() == anchor.hits && anchor.at.before.left.empty();
   if (!anchor.set || anchor.tried || !free) return std::nullopt;
-  const bool worth_it = anchor.before.ds >= told_apart && anchor.elsewhere < most_elsewhere;
+  const bool worth_it = anchor.at.before.ds >= told_apart && anchor.elsewhere < most_elsewhere;
   if (anchor.refusals == 2 && (refused.special || refused.astray) && worth_it)
     return step_of_like_length(following, anchor, progress, curve);
   if (progress.ds >= unresolved_length) return std::nullopt;
-  if (const auto outcome = step_over(following, anchor, progress, curve)) return outcome;
-  if (anchor.first && anchor.first->points < anchor.points && anchor.first->before.left.empty())
+  if (const auto outcome = step_over(following, anchor.at, progress, curve)) return outcome;
+  if (anchor.first && anchor.first->points < anchor.at.points && anchor.first->before.left.empty())
     if (const auto outcome = step_over(following, *anchor.first, progress, curve)) return outcome;
   anchor.tried = true;
   return cross_cluster(following, anchor, progress, curve) ? std::optional(Outcome::go_on)

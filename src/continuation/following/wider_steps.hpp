@@ -15,7 +15,8 @@ struct RefusedStep {
 
 /// Where special points made a step too long first, and where the steps before it began to be: what rounding hides may
 /// be wider than the last of them, so that none of about its length leads beyond.
-struct Anchor : RefusedStep {
+struct Anchor {
+  RefusedStep at{};
   std::size_t hits = 0;
   bool set = false, tried = false;
   bool passing = false;   ///< branches pass each other there: nothing is crossed in one step
