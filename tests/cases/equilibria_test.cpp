@@ -321,6 +321,19 @@ TEST_F(Equilibria, OfALineSpringWithABendNameItsLawWhereTheyAreNotCounted) {
                                                          "law is a straight line, and that of a"));
 }
 
+TEST_F(Equilibria, AreLookedForFromMoreStartsWhereTheLastOneCameLate) {
+  // No count tells whether some are missing where a spring acts on one side alone.
+  std::string bent = sprung_arm;
+  bent.replace(bent.find("stiffness = 1\nfree = 2.5"), 24,
+               "law = { law = \"one_sided\", stiffness = 1, from = 0.5 }");
+  for (const int asked : {1, 2}) {
+    const auto result = run(bent + "search = { starts = " + std::to_string(asked) + " }\n");
+    ASSERT_FALSE(result.equilibria->morse.applies);
+    EXPECT_GT(result.equilibria->starts, asked);
+    EXPECT_LE(result.equilibria->starts, 4 * asked);
+  }
+}
+
 TEST_F(Equilibria, HaveATableAndStandInTheSummary) {
   const Case c = load(two_springs);
   StudyResult result = analysis::run_study(c.runs[0].mechanism, c.runs[0].plan);

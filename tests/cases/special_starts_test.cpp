@@ -336,5 +336,34 @@ TEST(StartBesideABranchPoint, HasItWhereItIs) {
   }
 }
 
+/// A cord whose ends meet pulls nowhere in particular: whether its point is in balance there is not known.
+TEST(SpecialStarts, AtACordOfNoLengthAreRefusedWithItsName) {
+  const auto result = run(R"([[body]]
+name = "p"
+task_space = "xy"
+pose = [0, 0]
+[[chain]]
+name = "guide"
+elements = [
+  { joint = "prismatic", axis = "x", name = "x", role = "virtual", stiffness = 1 },
+  { joint = "prismatic", axis = "y", name = "y", role = "virtual", stiffness = 1 },
+]
+[[spring]]
+name = "cord"
+shape = "path"
+of = [{ on = "base", at = [0, 0] }, "p"]
+law = { law = "linear", stiffness = 3, free = 1 }
+[[study]]
+name = "pull"
+control = "load"
+direction = [1, 0]
+until = { lambda = [-1, 1] }
+)")
+                          .of("pull");
+  EXPECT_FALSE(result.start.found);
+  EXPECT_THAT(result.start.message, testing::HasSubstr("spring cord has the length 0"));
+  EXPECT_TRUE(result.branches.empty());
+}
+
 }  // namespace
 }  // namespace springfold::io
