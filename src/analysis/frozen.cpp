@@ -110,6 +110,26 @@ Terrain Frozen::terrain(const Scales& scales, const std::vector<JointDamping>& d
   return terrain;
 }
 
+std::string moves_most(const Frozen& frozen, const Vector& along) {
+  const auto& moving = frozen.landscape().moving();
+  Vector step = Vector::Zero(frozen.problem().size());
+  step(moving) = along;
+  const Vector z = frozen.unknowns(step) - frozen.unknowns(Vector::Zero(step.size()));
+  const statics::System& system = frozen.problem().layout();
+  const auto largest = [&](Index from, Index to) {
+    Index found = -1;
+    double size = 0.1;
+    for (Index i = from; i < to; ++i)
+      if (!system.is_wrench[static_cast<std::size_t>(i)] && std::abs(z[i]) > size * (1 + 1e-6))
+        size = std::abs(z[i]), found = i;
+    return found;
+  };
+  Index i = largest(system.first_pose, system.size);
+  if (i < 0) i = largest(0, system.first_pose);
+  if (i < 0) return "";
+  return (z[i] < 0 ? "-" : "+") + system.coordinate_names[static_cast<std::size_t>(i)];
+}
+
 Vector unknowns_in(const std::vector<double>& values,
                    const std::vector<QuantityDefinition>& quantities, Index size) {
   Vector z = Vector::Zero(size);

@@ -37,6 +37,10 @@ class Frozen {
   Landscape landscape_;
 };
 
+/// "+apex.y": the pose coordinate that moves most, or the joint where no pose moves.
+/// @param along  of the moving unknowns
+std::string moves_most(const Frozen& frozen, const Vector& along);
+
 /// All unknowns of the statics in a row of the branch table, dimensionless.
 Vector unknowns_in(const std::vector<double>& values,
                    const std::vector<QuantityDefinition>& quantities, Index size);

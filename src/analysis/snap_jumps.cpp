@@ -15,6 +15,7 @@
 #include "springfold/analysis/event_rows.hpp"
 #include "springfold/core/decompositions.hpp"
 #include "start.hpp"
+#include "stretch_track.hpp"
 #include "switched_springs.hpp"
 
 namespace springfold::analysis {
@@ -33,6 +34,7 @@ class Jumper {
         settings_{settings},
         result_{result},
         findings_{findings},
+        arc_length_{column_of(Kind::arc_length, t.quantities)},
         lambda_{column_of(Kind::lambda, t.quantities)},
         size_{t.problem.layout().size} {}
 
@@ -63,7 +65,7 @@ class Jumper {
       jump.branch = static_cast<int>(loss.branch) + 1;
       jump.loading = loss.loading;
       jump.side = way.side;
-      jump.towards = towards(frozen, way.along);
+      jump.towards = moves_most(frozen, way.along);
       jump.critical = {
           at,       branch.samples[event.row].piece, scales_.moment() * energy, 0, jump.branch,
           event.row};
@@ -248,6 +250,17 @@ class Jumper {
     std::size_t branch = 0, row = 0;
   };
 
+  /// Up to four rows.
+  StretchTrack track_of(const std::vector<Sample>& samples, std::size_t first) const {
+    StretchTrack track;
+    for (std::size_t r = first; r < std::min(first + 4, samples.size()); ++r) {
+      track.s.push_back(samples[r].values[arc_length_]);
+      track.lambda.push_back(samples[r].values[lambda_] / t_.lambda_scale);
+      track.x.push_back(unknowns_in(samples[r].values, t_.quantities, size_));
+    }
+    return track;
+  }
+
   /// All states of the traced branches at this lambda, polished.
   void add_traced(const Frozen& frozen, const Vector& critical, StateBook& book) {
     constexpr double beside_critical = 1e-4;
@@ -258,9 +271,9 @@ class Jumper {
         const double from = samples[r].values[lambda_] / t_.lambda_scale - frozen.lambda();
         const double to = samples[r + 1].values[lambda_] / t_.lambda_scale - frozen.lambda();
         if (from * to > 0 || from == to) continue;
-        const Vector p = unknowns_in(samples[r].values, t_.quantities, size_);
-        const Vector q = unknowns_in(samples[r + 1].values, t_.quantities, size_);
-        const Vector x = frozen.reduced(p + from / (from - to) * (q - p));
+        const std::size_t first = r - std::min<std::size_t>(r, 1);
+        const Vector x =
+            frozen.reduced(state_between(track_of(samples, first), r - first, frozen.lambda()));
         const auto state = rest_near(frozen.landscape(), x);
         if (!state || distance(frozen, state->x, critical) < beside_critical) continue;
         book.add(*state);
@@ -271,27 +284,6 @@ class Jumper {
 
   static double distance(const Frozen& frozen, const Vector& a, const Vector& b) {
     return (a - b)(frozen.landscape().moving()).lpNorm<Eigen::Infinity>();
-  }
-
-  /// "+apex.y": the pose coordinate that moves most, or the joint where no pose moves.
-  std::string towards(const Frozen& frozen, const Vector& along) const {
-    const auto& moving = frozen.landscape().moving();
-    Vector step = Vector::Zero(frozen.problem().size());
-    step(moving) = along;
-    const Vector z = frozen.unknowns(step) - frozen.unknowns(Vector::Zero(step.size()));
-    const statics::System& system = frozen.problem().layout();
-    const auto largest = [&](Index from, Index to) {
-      Index found = -1;
-      double size = 0.1;
-      for (Index i = from; i < to; ++i)
-        if (!system.is_wrench[static_cast<std::size_t>(i)] && std::abs(z[i]) > size * (1 + 1e-6))
-          size = std::abs(z[i]), found = i;
-      return found;
-    };
-    Index i = largest(system.first_pose, system.size);
-    if (i < 0) i = largest(0, system.first_pose);
-    if (i < 0) return "";
-    return (z[i] < 0 ? "-" : "+") + system.coordinate_names[static_cast<std::size_t>(i)];
   }
 
   SnapState written(const Frozen& frozen, const RestState& state) const {
@@ -366,7 +358,7 @@ class Jumper {
   const SnapSettings& settings_;
   const StudyResult& result_;
   SnapFindings& findings_;
-  std::size_t lambda_;
+  std::size_t arc_length_, lambda_;
   Index size_;
   std::vector<Traced> traced_{};
 };

@@ -26,6 +26,7 @@ Stretches::Stretches(const Tracing& t, const Scales& scales, const SnapSettings&
       scales_{scales},
       settings_{settings},
       result_{result},
+      arc_length_{column_of(Kind::arc_length, t.quantities)},
       lambda_{column_of(Kind::lambda, t.quantities)},
       index_{column_of(Kind::index, t.quantities)},
       size_{t.problem.layout().size} {}
@@ -79,10 +80,11 @@ int Stretches::number_of(const Frozen& frozen, const Vector& x) const {
   return 0;
 }
 
-Stretches::Track Stretches::track_of(const StableStretch& stretch) const {
-  Track track;
+StretchTrack Stretches::track_of(const StableStretch& stretch) const {
+  StretchTrack track;
   const Frozen any = frozen(stretch.rows.branch.samples.front().values[lambda_] / t_.lambda_scale);
   for (const Sample& sample : stretch.rows.branch.samples) {
+    track.s.push_back(sample.values[arc_length_]);
     track.lambda.push_back(sample.values[lambda_] / t_.lambda_scale);
     track.x.push_back(any.reduced(unknowns_in(sample.values, t_.quantities, size_)));
     track.is_stable.push_back(!(sample.values[index_] > 0));
@@ -90,30 +92,16 @@ Stretches::Track Stretches::track_of(const StableStretch& stretch) const {
   return track;
 }
 
-std::optional<Stretches::Place> Stretches::place_on(const Track& track, double lambda) {
-  for (std::size_t r = 0; r + 1 < track.lambda.size(); ++r) {
-    const double from = track.lambda[r] - lambda, to = track.lambda[r + 1] - lambda;
-    if (from * to > 0 || from >= to || !(track.is_stable[r] || track.is_stable[r + 1])) continue;
-    return Place{r, from / (from - to)};
-  }
-  return std::nullopt;
-}
-
 std::optional<Vector> Stretches::near_on(const Frozen& frozen, std::size_t stretch) const {
-  const Track& track = tracks_[stretch];
-  const auto at = place_on(track, frozen.lambda());
-  if (!at) return std::nullopt;
-  return Vector(track.x[at->row] + at->part * (track.x[at->row + 1] - track.x[at->row]));
+  return state_near(tracks_[stretch], frozen.lambda());
 }
 
 bool Stretches::passes(const Frozen& frozen, std::size_t stretch, const Vector& x) const {
-  const Track& track = tracks_[stretch];
-  const auto at = place_on(track, frozen.lambda());
-  if (!at) return false;
+  const auto near = near_on(frozen, stretch);
+  if (!near) return false;
   const Landscape& landscape = frozen.landscape();
-  const Vector &from = track.x[at->row], &to = track.x[at->row + 1];
   return std::all_of(landscape.moving().begin(), landscape.moving().end(), [&](Index i) {
-    const double d = from[i] + at->part * (to[i] - from[i]) - x[i];
+    const double d = (*near)[i] - x[i];
     const double period = landscape.periods()[i];
     return std::abs(period > 0 ? std::remainder(d, period) : d) <= far_apart;
   });
@@ -125,7 +113,7 @@ StateBook Stretches::book_at(const Frozen& frozen) const {
     if (const auto near = near_on(frozen, b))
       if (const auto state = rest_near(frozen.landscape(), *near)) book.add(*state);
   if (!book.states().empty()) return book;
-  for (const Track& track : tracks_) {
+  for (const StretchTrack& track : tracks_) {
     const auto distance = [&](double lambda) { return std::abs(lambda - frozen.lambda()); };
     const auto nearest =
         std::min_element(track.lambda.begin(), track.lambda.end(),

@@ -10,6 +10,7 @@
 #include "snap_jumps.hpp"
 #include "stable_stretch.hpp"
 #include "state_book.hpp"
+#include "stretch_track.hpp"
 
 namespace springfold::analysis {
 
@@ -53,20 +54,8 @@ class Stretches {
   const std::vector<Loss>& losses() const { return losses_; }
 
  private:
-  /// A stretch's states, to find one by its lambda.
-  struct Track {
-    std::vector<double> lambda{};
-    std::vector<Vector> x{};        ///< unknowns of the landscape
-    std::vector<bool> is_stable{};  ///< beyond the ends it is not
-  };
-  /// Between two rows: row + part of the way to the next one.
-  struct Place {
-    std::size_t row = 0;
-    double part = 0;
-  };
   continuation::CurvePoint point_of(const Frozen& frozen, const RestState& state) const;
-  Track track_of(const StableStretch& stretch) const;
-  static std::optional<Place> place_on(const Track& track, double lambda);
+  StretchTrack track_of(const StableStretch& stretch) const;
   /// The stretch's state at this lambda, not polished.
   std::optional<Vector> near_on(const Frozen& frozen, std::size_t stretch) const;
   /// Does the stretch come near a state of this lambda?
@@ -77,11 +66,11 @@ class Stretches {
   const Scales& scales_;
   const SnapSettings& settings_;
   StudyResult& result_;
-  std::size_t lambda_, index_;
+  std::size_t arc_length_, lambda_, index_;
   Index size_;
   std::vector<StableStretch> list_{};
-  std::vector<Track> tracks_{};  ///< of the same
-  std::vector<Loss> losses_{};   ///< of all stretches
+  std::vector<StretchTrack> tracks_{};  ///< of the same
+  std::vector<Loss> losses_{};          ///< of all stretches
 };
 
 }  // namespace springfold::analysis
