@@ -159,15 +159,55 @@ class Filler {
     }
   }
 
+  /// Points corrected from the model; where that is too poor, from the point before along its tangent.
   void one_by_one(const ArcModel& curve, double first, double last) {
+    std::optional<CurvePoint> before;
     for (double k = first; k <= last; ++k) {
-      CurvePoint point = curve.empty() ? gap_->from : on_model(curve, k);
-      if (!curve.empty() && find_point(walker_, point.piece, gap_->from.tangent, point) &&
-          is_of_gap(point))
-        result_.points.push_back(std::move(point));
-      else
+      const double t = way_of(k);
+      std::optional<CurvePoint> point;
+      if (!curve.empty()) point = corrected(on_model(curve, k), std::min(t, length_ - t));
+      if (!point) point = walked(before ? *before : gap_->from, t);
+      if (point && is_of_gap(*point)) {
+        before = point;
+        before->s = point->s = k * spacing_;
+        result_.points.push_back(std::move(*point));
+      } else {
         ++result_.missed;
+      }
     }
+  }
+
+  /// The point of the curve beside a place on the step; nothing where it is farther from there than a share of the way
+  /// to what is known. Newton's method may end on another curve, however far.
+  std::optional<CurvePoint> corrected(const CurvePoint& place, double known_in) const {
+    std::optional<CurvePoint> point(place);
+    if (!find_point(walker_, place.piece, gap_->from.tangent, *point) ||
+        length_of(walker_, difference(*point, place)) > near_share * known_in)
+      point.reset();
+    return point;
+  }
+
+  /// The point at a way along the gap, from one before it in steps as short as they must be.
+  std::optional<CurvePoint> walked(CurvePoint here, double t) const {
+    constexpr int most = 60;
+    double step = t - way(here);
+    for (int i = 0; i < most; ++i) {
+      const double ahead = metric_product(walker_.weights, here.tangent, gap_->from.tangent);
+      if (!(ahead > 0)) return std::nullopt;
+      CurvePoint place = here;
+      place.x += step / ahead * here.tangent.dx;
+      place.lambda += step / ahead * here.tangent.dlambda;
+      auto next = corrected(place, step / ahead);
+      if (!next) {
+        step /= 2;
+        continue;
+      }
+      here = std::move(*next);
+      const double left = t - way(here);
+      if (left <= one_place * length_) return here;
+      step = std::min(2 * step, left);
+    }
+    return std::nullopt;
   }
 
   /// Where another branch is nearer than the model is exact, the corrector may find that. A point with another number
@@ -182,7 +222,12 @@ class Filler {
 
   std::optional<CurvePoint> inner_point(const ArcModel& curve, double t) const {
     auto point = point_near(walker_, curve, gap_->from, t);
-    if (point) point->s = gap_->from.s + t / per_s_;
+    if (!point) return point;
+    CurvePoint place;
+    curve.point(walker_.weights, gap_->from, t, place);
+    if (length_of(walker_, difference(*point, place)) > near_share * std::min(t, length_ - t))
+      return std::nullopt;
+    point->s = gap_->from.s + t / per_s_;
     return point;
   }
 
