@@ -186,6 +186,7 @@ Arrival Arrivals::run(const ParameterChanges& changes) const {
   if (arrival.problem.empty()) arrival.problem = trouble_at(result, at);
   if (!arrival.problem.empty()) return arrival;
   arrival.state = state_at(result, at);
+  arrival.loss = loss_before(result, at);
   arrival.way = first.way + (first.way.empty() ? "" : "; ") + way_to(result, at);
   if (moves_parameter(first.study) && first.family) {
     const double value = arrival.state.at("lambda");

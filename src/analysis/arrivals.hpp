@@ -22,6 +22,7 @@ struct Arrival {
   std::vector<model::Load> kept{};
   ParameterChanges moved{};  ///< parameters that earlier studies moved, as they left them
   std::string way{};         ///< as Variant has it
+  std::string loss{};        ///< as loss_before() has it
   std::string problem{};     ///< why there is no such state, in words; empty: there is one
   double seconds = 0;        ///< CPU time of the studies before
 };

@@ -36,7 +36,7 @@ struct LoadError {
 /// the mode first exceeds rounding and what the load's error makes of it, from `push_size` on.
 /// @param pieces  those on both sides of the point
 Departures departures(const Landscape& landscape, const Vector& critical,
-                      const std::vector<Piece>& pieces, const LoadError& load);
+                      const std::vector<Piece>& pieces, const LoadError& load = {});
 
 /// The same departure with a smaller push: a thousandth of the straight way to where it leads, or as little more as the
 /// force along the mode is above rounding.

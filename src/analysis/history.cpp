@@ -100,6 +100,9 @@ StudyResult run_study_after(const History& history, const model::Mechanism& mech
     result.seconds += later.seconds;
     result.start.method +=
         ", from study \"" + history.earlier->study.name + "\" at " + history.earlier->at;
+    if (const std::string& loss = arrivals->at({})->loss; !loss.empty())
+      result.start.method +=
+          ", behind " + loss + ", where stability was lost: loaded slowly it does not get there";
     return result;
   }
   StudyResult result{.study = study.name};

@@ -165,6 +165,27 @@ std::string trouble_at(const StudyResult& result, const std::string& at) {
   return "";
 }
 
+std::string loss_before(const StudyResult& result, const std::string& at) {
+  const ResultPoint point = point_at(result, at);
+  if (point.branch == nullptr || point.branch != &result.branches.front()) return "";
+  const auto index = std::ranges::find(result.quantities, "index", &Quantity::name);
+  if (index == result.quantities.end()) return "";
+  const auto column = static_cast<std::size_t>(index - result.quantities.begin());
+  const auto is_unstable = [&](std::size_t row) {
+    return point.branch->samples[row].values[column] > 0;
+  };
+  const std::size_t start = point.branch->start_row;
+  if (is_unstable(start)) return "";
+  const bool forward = point.row > start;
+  std::string last;  // special point so far
+  for (std::size_t row = start; row != point.row;) {
+    forward ? ++row : --row;
+    if (is_unstable(row)) return last;
+    if (!point.branch->samples[row].event.empty()) last = point.branch->samples[row].event;
+  }
+  return "";
+}
+
 NamedValues state_at(const StudyResult& result, const std::string& at) {
   const std::vector<double>& values = *point_at(result, at).values;
   NamedValues state;

@@ -313,5 +313,38 @@ until = { apex.y = [-0.8, 0.8], apex.x = [-0.5, 0.5] }
   EXPECT_TRUE(across.doubts.empty()) << across.doubts.front();
 }
 
+/// The truss turns back at LP1 and comes to the asked load no more: its path ends unloaded, turned over and unstable at
+/// first, or where its range has it end.
+TEST(LoadHistories, SayThatTheStateLiesBehindALossOfStability) {
+  const std::string truss = supports_and_apex("apex", "0.5") + R"toml([[bar]]
+from = "l"
+to = "apex"
+EA = 1
+[[bar]]
+from = "r"
+to = "apex"
+EA = 1
+[[study]]
+name = "press"
+body = "apex"
+control = "load"
+direction = [0, -1]
+)toml";
+  const std::string next = R"toml([[study]]
+name = "next"
+body = "apex"
+control = "load"
+direction = [1, 0]
+until = { lambda = [-0.001, 0.001] }
+start = { from = "press", at = "end" }
+)toml";
+  using testing::HasSubstr;
+  const Ran lost = run(truss + "until = { lambda = [0, 1] }\n" + next);
+  EXPECT_THAT(lost.of("next").start.method, HasSubstr("behind LP1, where stability was lost"));
+  const Ran reached = run(truss + "until = { lambda = [0, 0.001] }\n" + next);
+  EXPECT_THAT(reached.of("next").start.method, HasSubstr("from study \"press\" at end"));
+  EXPECT_THAT(reached.of("next").start.method, testing::Not(HasSubstr("behind")));
+}
+
 }  // namespace
 }  // namespace springfold::io

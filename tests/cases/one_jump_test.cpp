@@ -122,29 +122,30 @@ until = { lambda = [-2e-6, 5e-6], bar.h = [-2.5, 2.5] }
 /// 1e-10, and what force that makes along the sway is rounding, whichever way everything is turned.
 TEST(WayDown, FromAStateWithoutForcesIsToldAsFlatWhateverTheOrientation) {
   for (const char* turn : {"0", "0.3", "0.7", "1.1", "2.2", "-0.9"}) {
-    std::string text = "[parameters]\nturn = " + std::string(turn) + R"(
+    std::string text = "[parameters]\nturn = " + std::string(turn) + R"toml(
 [[body]]
 name = "plate"
 task_space = "planar"
 pose = ["-sin(turn)", "cos(turn)", "turn"]
-)";
+)toml";
     for (const std::string side : {"-", ""})
-      text += "[[chain]]\nname = \"leg" + std::string(side.empty() ? "r" : "l") + "\"\nfrom_at = [\"" + side +
-              "0.5*cos(turn)\", \"" + side + "0.5*sin(turn)\"]\nto_at = [" + side + R"(0.5, 0]
+      text += "[[chain]]\nname = \"leg" + std::string(side.empty() ? "r" : "l") +
+              "\"\nfrom_at = [\"" + side + "0.5*cos(turn)\", \"" + side +
+              "0.5*sin(turn)\"]\nto_at = [" + side + R"toml(0.5, 0]
 elements = [
   { joint = "revolute", axis = "z", name = "foot", initial = "pi/2 + turn" },
   { joint = "prismatic", axis = "x", name = "bar", role = "virtual", stiffness = 1 },
   { rigid = [1, 0] },
   { joint = "revolute", axis = "z", name = "head", initial = "-pi/2" },
 ]
-)";
-    const auto result = run(text + R"([[study]]
+)toml";
+    const auto result = run(text + R"toml([[study]]
 name = "press"
 kind = "snap_through"
 control = "load"
 direction = ["sin(turn)", "-cos(turn)", 0]
 until = { lambda = [-0.2, 0.2] }
-)")
+)toml")
                             .of("press");
     ASSERT_TRUE(result.snap);
     EXPECT_TRUE(result.snap->jumps.empty()) << turn;
