@@ -109,7 +109,7 @@ class Grower {
   void search(double lambda) {
     const BranchSettings& settings = t_.study.branches;
     const double scaled = lambda / t_.lambda_scale;
-    const auto known = known_at(t_.problem, grown_.diagram, scaled, options_.trace.newton);
+    const auto known = known_at(t_.problem, grown_.diagram, scaled);
     const auto [low, high] = search_box(t_.problem, grown_.diagram, grown_.starts.front().x);
     continuation::SearchResult found;
     try {

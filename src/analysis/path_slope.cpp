@@ -4,6 +4,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 
+#include "curve_chord.hpp"
 #include "first_unwanted.hpp"
 #include "limits.hpp"
 #include "springfold/continuation/newton.hpp"
@@ -61,15 +62,13 @@ Direction in_sense(double sense, const Direction& tangent) {
 /// The point of the curve between two others, at this part of the way.
 std::optional<CurvePoint> between(const Member& member, const CurvePoint& a, const CurvePoint& b,
                                   double part) {
-  const PathProblem& problem = *member.problem;
-  const Direction chord{b.x - a.x, b.lambda - a.lambda};
-  const auto found = continuation::correct(problem, problem.metric(), a.x + part * chord.dx,
-                                           a.lambda + part * chord.dlambda, a.piece, chord, {});
-  if (!continuation::converged(found)) return std::nullopt;
+  const CurveChord chord(*member.problem, {a.x, a.lambda}, {b.x, b.lambda});
+  const auto found = chord.at(part, a.piece);
+  if (!found) return std::nullopt;
   return CurvePoint{.s = a.s + part * (b.s - a.s),
-                    .x = found.x,
-                    .lambda = found.lambda,
-                    .tangent = chord,
+                    .x = found->x,
+                    .lambda = found->lambda,
+                    .tangent = chord.chord,
                     .piece = a.piece};
 }
 

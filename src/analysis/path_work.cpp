@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "curve_chord.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "springfold/core/differences.hpp"
 
@@ -23,9 +24,6 @@ constexpr std::array<std::pair<double, double>, 3> gauss{
 constexpr std::array difference_steps{1e-2, 2e-3, 4e-4, 8e-5};
 /// Two that differ by less, relative to what they are differences of, agree to rounding.
 constexpr double agreed = 1e-12;
-
-/// Rounding of points: the direction of a chord so short says nothing.
-constexpr double no_way = 1e-13;
 
 /// Pi and the closures times their wrenches: stationary at an equilibrium, so its derivative by lambda at
 /// fixed unknowns is that of Pi along the path.
@@ -69,31 +67,6 @@ std::optional<Piece> piece_between(const PathProblem& problem, const PathState& 
   return piece;
 }
 
-/// The way from one state to a neighbouring one on a smooth piece, whose points the chord between them determines.
-struct ChordOfCurve {
-  const PathProblem& problem;
-  const PathState& from;
-  Vector weights;
-  Direction chord, border{};  ///< border: of unit length; where there is no way it is not defined
-  double length = 0;
-
-  ChordOfCurve(const PathProblem& of, const PathState& begin, const PathState& end)
-      : problem{of},
-        from{begin},
-        weights{of.metric()},
-        chord{end.x - begin.x, end.lambda - begin.lambda} {
-    length = std::sqrt(continuation::metric_product(weights, chord, chord));
-    border = {chord.dx / length, chord.dlambda / length};
-  }
-
-  bool is_a_way() const { return length > no_way; }
-  /// The curve's point at so large a part of the way.
-  auto at(double part, const Piece& piece) const {
-    return continuation::correct(problem, weights, from.x + part * chord.dx,
-                                 from.lambda + part * chord.dlambda, piece, border, {});
-  }
-};
-
 }  // namespace
 
 double path_energy(const PathProblem& problem, const PathState& state) {
@@ -105,17 +78,13 @@ double path_energy(const PathProblem& problem, const PathState& state) {
 
 std::optional<PathState> state_at_level(const PathProblem& problem, const PathState& from,
                                         const PathState& to, double target) {
-  const ChordOfCurve chord(problem, from, to);
+  const CurveChord chord(problem, from, to);
   if (!chord.is_a_way()) return from;
   const auto piece = piece_between(problem, from, to);
   if (!piece) return std::nullopt;
   // Beside a limit load lambda hardly changes along the curve, and at constant lambda the state is hardly determined:
   // the way along the chord determines it.
-  const auto state_at = [&](double part) -> std::optional<PathState> {
-    const auto solved = chord.at(part, *piece);
-    return continuation::converged(solved) ? std::optional<PathState>({solved.x, solved.lambda})
-                                           : std::nullopt;
-  };
+  const auto state_at = [&](double part) { return chord.at(part, *piece); };
   bool is_known = true;
   const auto missing = [&](double part) {
     const auto state = state_at(part);
@@ -142,7 +111,7 @@ std::optional<PathState> state_at_level(const PathProblem& problem, const PathSt
 
 std::optional<double> path_work(const PathProblem& problem, const PathState& from,
                                 const PathState& to) {
-  const ChordOfCurve chord(problem, from, to);
+  const CurveChord chord(problem, from, to);
   if (!chord.is_a_way()) return 0.0;
   const auto piece = piece_between(problem, from, to);
   if (!piece) return std::nullopt;
@@ -152,11 +121,10 @@ std::optional<double> path_work(const PathProblem& problem, const PathState& fro
       const double part = (1 + sign * node) / 2;
       const auto solved = chord.at(part, *piece);
       continuation::Linearisation at;
-      if (!continuation::converged(solved) ||
-          !continuation::linearise(problem, solved.x, solved.lambda, *piece, at))
+      if (!solved || !continuation::linearise(problem, solved->x, solved->lambda, *piece, at))
         return std::nullopt;
       const auto tangent = continuation::tangent_at(at, chord.weights, chord.border);
-      const auto rate = rate_by_lambda(problem, solved.x, solved.lambda, *piece);
+      const auto rate = rate_by_lambda(problem, solved->x, solved->lambda, *piece);
       if (!tangent || !rate) return std::nullopt;
       // The curve is passed at unit speed along the chord.
       const double along = continuation::metric_product(chord.weights, *tangent, chord.border);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "springfold/continuation/newton.hpp"
+#include "path_work.hpp"
 
 namespace springfold::analysis {
 
@@ -29,19 +29,16 @@ SearchBox search_box(const PathProblem& problem, const continuation::Diagram& di
 }
 
 std::vector<Vector> known_at(const PathProblem& problem, const continuation::Diagram& diagram,
-                             double lambda, const continuation::NewtonOptions& options) {
+                             double lambda) {
   std::vector<Vector> known;
-  const continuation::Direction only_lambda{Vector::Zero(problem.size()), 1};
   const auto add = [&](const CurvePoint& a, const CurvePoint& b) {
     if ((a.lambda - lambda) * (b.lambda - lambda) > 0 || a.lambda == b.lambda) return;
-    const double t = (lambda - a.lambda) / (b.lambda - a.lambda);
-    const auto solution = continuation::correct(problem, problem.metric(), a.x + t * (b.x - a.x),
-                                                lambda, a.piece, only_lambda, options);
-    if (!continuation::converged(solution)) return;
+    const auto state = state_at_level(problem, {a.x, a.lambda}, {b.x, b.lambda}, lambda);
+    if (!state) return;
     const bool is_new = std::none_of(known.begin(), known.end(), [&](const Vector& x) {
-      return (x - solution.x).lpNorm<Eigen::Infinity>() < 1e-8;
+      return (x - state->x).lpNorm<Eigen::Infinity>() < 1e-8;
     });
-    if (is_new) known.push_back(solution.x);
+    if (is_new) known.push_back(state->x);
   };
   for (const continuation::Branch& branch : diagram.branches) {
     const auto& points = branch.curve.points;

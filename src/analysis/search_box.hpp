@@ -17,6 +17,6 @@ SearchBox search_box(const PathProblem& problem, const continuation::Diagram& di
 
 /// The points of the traced branches at this lambda, each corrected there.
 std::vector<Vector> known_at(const PathProblem& problem, const continuation::Diagram& diagram,
-                             double lambda, const continuation::NewtonOptions& options);
+                             double lambda);
 
 }  // namespace springfold::analysis

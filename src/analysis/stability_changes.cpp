@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "branch_rows.hpp"
+#include "curve_chord.hpp"
 #include "force_events.hpp"
 #include "grow_diagram.hpp"
 #include "springfold/continuation/newton.hpp"
@@ -108,18 +109,17 @@ class Watcher {
   /// where the point that is found has another direction: it is one of a branch that crosses.
   std::optional<CurvePoint> point_at(const CurvePoint& a, const CurvePoint& b, double part,
                                      const continuation::NewtonOptions& options) const {
-    Direction chord{b.x - a.x, b.lambda - a.lambda};
-    const double length = std::sqrt(continuation::metric_product(weights_, chord, chord));
+    const CurveChord chord(t_.problem, {a.x, a.lambda}, {b.x, b.lambda});
+    const double length = chord.length;
     if (!(length > 0)) return std::nullopt;
-    const Direction border{chord.dx / length, chord.dlambda / length};
     const HermiteCubic<Vector> x{a.x, a.tangent.dx, b.x, b.tangent.dx, length};
     const HermiteCubic<double> lambda{a.lambda, a.tangent.dlambda, b.lambda, b.tangent.dlambda,
                                       length};
     const Direction way{x.slope_at(part), lambda.slope_at(part)};
     const auto solved = continuation::correct(t_.problem, weights_, x.at(part), lambda.at(part),
-                                              a.piece, border, options);
+                                              a.piece, chord.border, options);
     continuation::Linearisation at;
-    if (!continuation::converged(solved) ||
+    if (!continuation::converged(solved) || !chord.is_beside(solved.x, solved.lambda, part) ||
         !continuation::linearise(t_.problem, solved.x, solved.lambda, a.piece, at))
       return std::nullopt;
     const auto tangent = continuation::tangent_at(at, weights_, a.tangent);

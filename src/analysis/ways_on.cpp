@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curve_chord.hpp"
 #include "springfold/continuation/newton.hpp"
 #include "start.hpp"
 
@@ -28,15 +29,13 @@ std::optional<CurvePoint> halfway_to_next(const PathProblem& problem, const Curv
   const CurvePoint* next = &curve.points[1];
   for (const continuation::Hit& hit : curve.hits)
     if (hit.point.s > 0 && hit.point.s < next->s) next = &hit.point;
-  const Direction chord{next->x - start.x, next->lambda - start.lambda};
-  const auto found =
-      continuation::correct(problem, problem.metric(), start.x + 0.5 * chord.dx,
-                            start.lambda + 0.5 * chord.dlambda, next->piece, chord, {});
-  if (!continuation::converged(found)) return std::nullopt;
+  const CurveChord chord(problem, {start.x, start.lambda}, {next->x, next->lambda});
+  const auto found = chord.at(0.5, next->piece);
+  if (!found) return std::nullopt;
   CurvePoint point{.s = 0.5 * next->s,
-                   .x = found.x,
-                   .lambda = found.lambda,
-                   .tangent = chord,
+                   .x = found->x,
+                   .lambda = found->lambda,
+                   .tangent = chord.chord,
                    .piece = next->piece};
   count_negative(problem, point);
   return point;
