@@ -336,7 +336,7 @@ TEST(StartBesideABranchPoint, HasItWhereItIs) {
   }
 }
 
-/// A cord whose ends meet pulls nowhere in particular: whether its point is in balance there is not known.
+/// A cord that pulls also where its ends meet, but nowhere in particular: whether its point is in balance is not known.
 TEST(SpecialStarts, AtACordOfNoLengthAreRefusedWithItsName) {
   const auto result = run(R"([[body]]
 name = "p"
@@ -352,7 +352,7 @@ elements = [
 name = "cord"
 shape = "path"
 of = [{ on = "base", at = [0, 0] }, "p"]
-law = { law = "linear", stiffness = 3, free = 1 }
+law = { law = "linear", stiffness = 3, free = -1 }
 [[study]]
 name = "pull"
 control = "load"
