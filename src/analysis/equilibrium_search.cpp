@@ -166,11 +166,18 @@ class Searcher {
     constexpr int draws = 20;
     Vector z = suited(drawn(result_.starts, random));
     for (int i = 1; i < draws && !in_range_(z); ++i) z = suited(drawn(result_.starts, random));
-    // Random states in turn from downhill, from a saddle, and as they are; even ones lie beside an
-    // equilibrium that is known.
-    const int kind = result_.starts % 6;
-    if (!problem_.symmetric() || kind == 0) return z;
-    return kind == 3 ? followed(z, 1) : kind == 1 ? followed(z, 0) : z;
+    // Even ones, beside an equilibrium that is known, as they are; odd ones in turn from downhill, from a saddle, as
+    // they are, and from where more modes are unstable, as many as there may be.
+    const int kind = result_.starts % 8;
+    if (!problem_.symmetric() || kind % 2 == 0 || kind == 5) return z;
+    const Index uphill = kind == 1 ? 0 : kind == 3 ? 1 : 2 + result_.starts / 8 % other_indices();
+    return followed(z, uphill);
+  }
+
+  /// How many numbers of unstable modes there are above 1.
+  Index other_indices() const {
+    const auto motions = static_cast<Index>(parts_.moving.size() - parts_.wrenches.size());
+    return std::max<Index>(1, motions - 1);
   }
 
   /// In turn a random state of the box, and one beside an equilibrium that is known.

@@ -18,8 +18,8 @@ std::string trouble_at(const StudyResult& result, const std::string& at);
 /// @pre trouble_at(result, at).empty()
 NamedValues state_at(const StudyResult& result, const std::string& at);
 
-/// The label of the special point between the start of the first branch and a point of it behind which the state, stable
-/// at the start, is unstable: what is loaded slowly leaves the branch there. Empty: there is none.
+/// The label of the special point between the start of the first branch and a point of it behind which the state,
+/// stable at the start, is unstable: what is loaded slowly leaves the branch there. Empty: there is none.
 std::string loss_before(const StudyResult& result, const std::string& at);
 
 /// The label of the equilibrium of a search that is nearest to a state of a neighbouring value of a parameter: a search

@@ -9,8 +9,8 @@
 namespace springfold::io {
 namespace {
 
-/// Two nodes on three bars and three cables. At both ends of a stretch of lambda two states, bent this way and that, meet
-/// in a straight one, which hands back to both: four states in all.
+/// Two nodes on three bars and three cables. At both ends of a stretch of lambda two states, bent this way and that,
+/// meet in a straight one, which hands back to both: four states in all.
 const std::string bent_twice = R"(
 [[node]]
 name = "n0"

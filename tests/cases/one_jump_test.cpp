@@ -117,8 +117,8 @@ until = { lambda = [-2e-6, 5e-6], bar.h = [-2.5, 2.5] }
   EXPECT_TRUE(is_told || lands) << analysis::to_string(back.verdict);
 }
 
-/// Two parallel bars at rest carry a plate that sways without a force, and above zero load falls to either side: at zero
-/// load all its sways are in balance, and where it would go is not known. The load of the branch point is known to
+/// Two parallel bars at rest carry a plate that sways without a force, and above zero load falls to either side: at
+/// zero load all its sways are in balance, and where it would go is not known. The load of the branch point is known to
 /// 1e-10, and what force that makes along the sway is rounding, whichever way everything is turned.
 TEST(WayDown, FromAStateWithoutForcesIsToldAsFlatWhateverTheOrientation) {
   for (const char* turn : {"0", "0.3", "0.7", "1.1", "2.2", "-0.9"}) {
