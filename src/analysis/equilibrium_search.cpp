@@ -166,12 +166,14 @@ class Searcher {
     constexpr int draws = 20;
     Vector z = suited(drawn(result_.starts, random));
     for (int i = 1; i < draws && !in_range_(z); ++i) z = suited(drawn(result_.starts, random));
-    // Even ones, beside an equilibrium that is known, as they are; odd ones in turn from downhill, from a saddle, as
-    // they are, and from where more modes are unstable, as many as there may be.
-    const int kind = result_.starts % 8;
-    if (!problem_.symmetric() || kind % 2 == 0 || kind == 5) return z;
-    const Index uphill = kind == 1 ? 0 : kind == 3 ? 1 : 2 + result_.starts / 8 % other_indices();
-    return followed(z, uphill);
+    if (!problem_.symmetric()) return z;
+    // Odd ones, anywhere in the box, in turn from downhill, from a saddle, and as they are. Even ones, beside an
+    // equilibrium that is known, as they are, and each fourth from where two modes are unstable, or as many more as
+    // there may be.
+    const int kind = result_.starts % 6;
+    if (kind == 1 || kind == 3) return followed(z, kind == 1 ? 0 : 1);
+    const bool is_fourth = result_.starts % 8 == 6;
+    return is_fourth ? followed(z, 2 + result_.starts / 8 % other_indices()) : z;
   }
 
   /// How many numbers of unstable modes there are above 1.
