@@ -101,9 +101,10 @@ Curve curve_along(const PathProblem& problem, const WayOn& way,
   };
   continuation::Diagram diagram = continuation::trace_diagram(
       problem, {{from.x, from.lambda, from.piece}}, events, options, observer);
-  const auto own = std::ranges::find_if(diagram.branches, [&](const continuation::Branch& branch) {
-    return !branch.curve.points.empty() && is_own(branch.curve.points.front());
-  });
+  const auto leading =
+      std::ranges::find_if(diagram.branches, [&](const continuation::Branch& branch) {
+        return !branch.curve.points.empty() && is_own(branch.curve.points.front());
+      });
   if (own == diagram.branches.end()) return {};
   Curve curve = std::move(own->curve);
   for (continuation::Hit& hit : curve.hits) hit.junction = hit.way_back = hit.way_on = -1;
