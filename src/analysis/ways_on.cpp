@@ -88,11 +88,11 @@ Curve curve_along(const PathProblem& problem, const WayOn& way,
                   const std::vector<continuation::Event>& events,
                   continuation::DiagramOptions options,
                   const continuation::StepObserver& observer) {
-  constexpr double one_way = 0.7;  // ways of one point are farther apart
+  constexpr double same_way = 0.7;  // ways of one point are farther apart
   const Vector metric = problem.metric();
   const CurvePoint& from = way.from;
   const auto is_own = [&](const CurvePoint& begin) {
-    return begin.piece == from.piece && cosine(metric, begin.tangent, from.tangent) > one_way;
+    return begin.piece == from.piece && cosine(metric, begin.tangent, from.tangent) > same_way;
   };
   options.maximum_depth = 0;
   options.ends_at = [&is_own, asked = std::move(options.ends_at)](const CurvePoint& begin) {
@@ -101,10 +101,9 @@ Curve curve_along(const PathProblem& problem, const WayOn& way,
   };
   continuation::Diagram diagram = continuation::trace_diagram(
       problem, {{from.x, from.lambda, from.piece}}, events, options, observer);
-  const auto leading =
-      std::ranges::find_if(diagram.branches, [&](const continuation::Branch& branch) {
-        return !branch.curve.points.empty() && is_own(branch.curve.points.front());
-      });
+  const auto own = std::ranges::find_if(diagram.branches, [&](const continuation::Branch& branch) {
+    return !branch.curve.points.empty() && is_own(branch.curve.points.front());
+  });
   if (own == diagram.branches.end()) return {};
   Curve curve = std::move(own->curve);
   for (continuation::Hit& hit : curve.hits) hit.junction = hit.way_back = hit.way_on = -1;
