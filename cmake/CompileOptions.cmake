@@ -30,6 +30,11 @@ if(SPRINGFOLD_SANITIZE)
   # (handle_sigill=1). Words and places of each test would be a seventh of its time; GCC's preset `debug` has them.
   add_compile_options($<$<CXX_COMPILER_ID:Clang>:-fsanitize-trap=undefined>)
   add_link_options(-fsanitize=address,undefined)
+  # Programs of eighty megabytes: LLVM's linker takes a fifth of the time.
+  find_program(SPRINGFOLD_LLD ld.lld)
+  if(SPRINGFOLD_LLD AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    add_link_options(-fuse-ld=lld)
+  endif()
 endif()
 
 set(CMAKE_CXX_EXTENSIONS OFF)

@@ -16,6 +16,8 @@ enum class Mode {
 
 /// CPU seconds after which a run to its end is a long one: it is sent SIGINT, and must end at once with what it has.
 inline constexpr double long_run = 240;
+/// The same of a check, whose starts are looked for.
+inline constexpr double long_check = 20;
 
 /// Exit code of a program that a signal has ended. Where it comes in the middle of a long step the process ends at
 /// once.
