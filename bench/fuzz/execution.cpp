@@ -87,13 +87,12 @@ Outcome execute(Mode mode, const fs::path& case_file, const fs::path& out, bool 
   Outcome outcome;
   fs::remove_all(out);  // of a run that was given up, and this process with it
   std::vector<std::string> check{"springfold", "check", case_file.string()};
-  if (mode == Mode::run) check.push_back("--no-solve");  // starts without end are stopped below
+  if (mode != Mode::check) check.push_back("--no-solve");  // starts without end are stopped below
   const Said checked = call_within({long_check, true}, check);
   outcome.code = checked.code;
   outcome.accepted = is_one_of(checked.code, {0, 4});  // 4: its start is not found
   check_texts(checked, outcome.broken);
-  const bool cut = checked.code == ended_by_signal;
-  if (!cut && !is_one_of(checked.code, {0, 3, 4, 6, 7}))
+  if (!is_one_of(checked.code, {0, 3, 4, 6, 7, ended_by_signal}))
     outcome.broken.push_back("exit code of check");
   if (mode == Mode::check) return outcome;
 
@@ -107,7 +106,7 @@ Outcome execute(Mode mode, const fs::path& case_file, const fs::path& out, bool 
     outcome.broken.push_back("exit code of run");
   if (outcome.accepted && said.code == 3)
     outcome.broken.push_back("run refuses what check accepts");
-  if (!outcome.accepted && !cut && said.code != checked.code &&
+  if (!outcome.accepted && said.code != checked.code &&
       said.code != ended_by_signal)  // before it was read
     outcome.broken.push_back("run accepts what check refuses");
   if (said.code == 3 && fs::exists(out)) outcome.broken.push_back("written with exit code 3");

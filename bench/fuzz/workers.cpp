@@ -164,9 +164,9 @@ class Worker {
       ::kill(process_, SIGKILL);
       ::waitpid(process_, &status, 0);
       found("no end");
-    } else if (settings_.mode == Mode::run && WIFEXITED(status) &&
+    } else if (settings_.mode != Mode::uncapped && WIFEXITED(status) &&
                WEXITSTATUS(status) == ended_by_signal) {
-      ++board_->accepted;
+      ++board_->accepted;  // it was at work
       ++board_->codes[ended_by_signal];
       board_->done = board_->current + 1;
     } else if (!(WIFEXITED(status) && WEXITSTATUS(status) == 0)) {
