@@ -164,9 +164,8 @@ class Worker {
       ::kill(process_, SIGKILL);
       ::waitpid(process_, &status, 0);
       found("no end");
-    } else if (settings_.mode != Mode::uncapped && WIFEXITED(status) &&
-               WEXITSTATUS(status) == ended_by_signal) {
-      ++board_->accepted;  // it was at work
+    } else if (WIFEXITED(status) && WEXITSTATUS(status) == ended_by_signal) {
+      ++board_->accepted;  // it was at work, in the middle of a long step
       ++board_->codes[ended_by_signal];
       board_->done = board_->current + 1;
     } else if (!(WIFEXITED(status) && WEXITSTATUS(status) == 0)) {

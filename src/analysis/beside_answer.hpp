@@ -1,7 +1,9 @@
 // Is an answer confirmed by what is traced beside it, on both sides? Private to analysis.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,6 +17,13 @@ namespace springfold::analysis {
 /// distance.
 inline constexpr std::array<double, 3> distances_beside{1e-6, 1e-5, 1e-4};
 inline constexpr double nearest_beside = distances_beside.front();
+
+/// So far beyond a value of the parameter, relative to it. @param towards  1 or -1
+inline double beyond_value(double mu, double towards, double distance) {
+  constexpr double least_value =
+      1e-3;  // in the parameter's own unit, below which a value counts as zero
+  return mu + towards * distance * std::max(std::abs(mu), least_value);
+}
 
 /// The least of these distances at which what is wanted holds on the inner side of an answer and not on the outer one;
 /// nothing where no distance confirms it.

@@ -195,6 +195,8 @@ class CaseCurves {
   mutable std::map<std::string, int>
       ways_{};              ///< to starts that earlier studies lead to: their sheets
   mutable int sheets_ = 0;  ///< so many are known besides the first member's
+  /// By sheet, and whether mu grows: where a start was not to be followed any more.
+  mutable std::map<std::pair<int, bool>, double> vanished_{};
   mutable statics::Workspace start_work_{};  ///< of equations at starts
 };
 

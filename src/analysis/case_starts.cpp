@@ -49,11 +49,12 @@ bool CaseCurves::solve(Member& member, const statics::StartProblem& problem) con
   return member.report.found;
 }
 
-/// As the case with this value begins, whatever the neighbours are. Commands that are not tied are those of the first
-/// member.
+/// As the case with this value begins, whatever the neighbours are: with as many attempts, and from where the loads let
+/// its guess sink. Commands that are not tied are those of the first member.
 bool CaseCurves::solve_by_itself(Member& member) const {
-  statics::StartProblem problem =
-      start_problem(member.setup, member.study.body, start_beside(member.study));
+  StartOptions how = start_beside(member.study);
+  how.attempts = member.study.start.attempts;
+  statics::StartProblem problem = start_problem(member.setup, member.study.body, how);
   if (keeps_commands(member.study) && base_) problem.inputs.rho = base_->first.inputs.rho;
   return solve(member, problem);
 }
@@ -111,11 +112,14 @@ std::unique_ptr<Member> CaseCurves::on_the_way(double mu, const Member& near) co
 }
 
 /// Follows the neighbour's start to the member, in steps that are short enough for each to be told from the one before.
-/// @returns false where it vanishes on the way
+/// @returns false where it vanishes on the way: then it does so on every longer way as well
 bool CaseCurves::walk_to(Member& member, const Member& near) const {
-  constexpr int most_steps = 64;
-  constexpr double shortest = 0x1p-8;  // of the way
+  constexpr int most_steps = 128;
+  constexpr double shortest =
+      0x1p-20;  // of the way: so near a start is to where it vanishes, and is followed
   const double way = member.mu - near.mu;
+  const auto known = vanished_.find({near.sheet, way > 0});
+  if (known != vanished_.end() && (way > 0) == (member.mu >= known->second)) return false;
   std::unique_ptr<Member> here;
   double gone = 0, step = 0.5;
   for (int i = 0; i < most_steps && step >= shortest; ++i) {
@@ -133,6 +137,7 @@ bool CaseCurves::walk_to(Member& member, const Member& near) const {
       step /= 2;
     }
   }
+  vanished_.insert_or_assign({near.sheet, way > 0}, member.mu);
   return false;
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 
+#include "beside_answer.hpp"
 #include "critical_rows.hpp"
 
 namespace springfold::analysis {
@@ -118,7 +119,11 @@ void say_start_or_its_load(const CaseCurves& curves, continuation::CriticalCurve
   if (!ends_at_start_of_path(curve)) return;
   continuation::CriticalHit& end = curve.hits.back();
   const Member* member = curves.at(end.point.mu);
-  if (member == nullptr) return;  // where the start is lost they have met
+  // Where the start is lost they have met, whatever start there is from there on.
+  if (member == nullptr) return;
+  const double ahead = end.point.dmu < 0 ? -1 : 1;
+  const Member* before = curves.at(beyond_value(end.point.mu, ahead, -nearest_beside));
+  if (before != nullptr && before->sheet != member->sheet) return;
   const Vector start = member->start().x;
   if (start.size() == end.point.x.size() && (end.point.x - start).norm() <= one_state) return;
   end.name = curve.stop_detail = "its load is that at which the path starts";

@@ -12,9 +12,8 @@
 #include "cut_curve.hpp"
 #include "first_unwanted.hpp"
 #include "limits.hpp"
-#include "load_path.hpp"
 #include "load_pieces.hpp"
-#include "springfold/continuation/numerics.hpp"
+#include "path_parting.hpp"
 #include "springfold/core/number_text.hpp"
 
 namespace springfold::analysis {
@@ -24,10 +23,6 @@ using continuation::CriticalCurve;
 using continuation::CriticalHit;
 using continuation::CriticalPoint;
 
-/// So many parts of a piece are looked at for values at which the path does not come to it, and how closely, in parts
-/// of it, the place where that begins is bracketed.
-constexpr int values_between = 8;
-constexpr double closest_bracket = 1e-12;
 /// What lies as near on the curve, in parts of the range, decides.
 constexpr double at_degeneracy = 1e-5;
 /// The end of the range is located as well as this, in parts of it.
@@ -94,11 +89,7 @@ class Threshold {
   }
 
   /// So far beyond a value, relative to it, in the direction in which the answer is looked for.
-  double beyond(double mu, double distance) const {
-    constexpr double least_value =
-        1e-3;  // in the parameter's own unit, below which a value counts as zero
-    return mu + towards_ * distance * std::max(std::abs(mu), least_value);
-  }
+  double beyond(double mu, double distance) const { return beyond_value(mu, towards_, distance); }
 
   /// Where an unwanted limit point has reached the start, the start is one: beyond there may be none.
   bool lacks_start(double mu) const { return at_start_ && curves_.at(mu) == nullptr; }
@@ -166,7 +157,11 @@ class Threshold {
     at_start_ = at_its_load && loses_start(last.mu);
     if (at_start_) decides_ = at_start_of_path(bad.kind);
     const std::optional<double> clear =
-        clear_before(mu, last.mu, at_range || (at_its_load && !at_start_));
+        clear_before({.from = mu,
+                      .to = last.mu,
+                      .at_end = at_range || (at_its_load && !at_start_),
+                      .at_range = at_range,
+                      .width = width()});
     is_clear_ = clear.has_value();
     at_start_ = at_start_ && !is_clear_;
     if (clear) end_where_clear(*clear, followed, last);
@@ -176,82 +171,26 @@ class Threshold {
     result_.branches.push_back(rows_of(curves_, followed));
     last_ = last.mu;
     ended_on_ = bad;
-    if (at_range && !clear) none(bad.label);
+    if (unknown_from_)
+      doubt(*unknown_from_);
+    else if (at_range && !clear)
+      none(bad.label);
     return !at_range || clear;
   }
 
-  /// The point that is followed may leave the path from the start, as where branches cross: then nothing unwanted
-  /// happens from there on. The path is traced at values between, whose starts belong to that of the first one.
-  /// @returns where, nothing if it happens at all of them
-  std::optional<double> clear_before(double from, double to, bool at_end) {
-    const std::string told = std::exchange(why_, {});
-    enum class At { happens, clear, unknown };
-    const int sheet = curves_.at(from)->sheet;
-    const auto look = [&](double value) {
-      const bool happens = unwanted_at(value).has_value();
-      const bool is_told = std::exchange(why_, {}).empty();
-      const Member* member = curves_.at(value);
-      if (!is_told || member == nullptr || member->sheet != sheet) return At::unknown;
-      return happens ? At::happens : At::clear;
-    };
-    double bad = from;
-    std::optional<double> clear;
-    // Where points merge a path is told from one without them at this distance before.
-    const double last = at_end ? to : beyond(to, -distances_beside.back());
-    for (int i = 1; i <= values_between && !clear; ++i) {
-      const double value = i == values_between ? last : from + (to - from) * i / values_between;
-      if (towards_ * (last - value) < 0 || towards_ * (value - from) <= 0) break;
-      const At at = look(value);
-      if (at == At::clear) clear = value;
-      if (at == At::happens) bad = value;
-    }
-    // Nearer to its end a path without it may only not tell it from its neighbour: then it is the same path all along.
-    bool is_near_end = false;
-    for (std::size_t i = distances_beside.size() - 1; i-- > 0 && !clear && !at_end;) {
-      const double value = beyond(to, -distances_beside[i]);
-      if (towards_ * (value - bad) <= 0) break;
-      const At at = look(value);
-      is_near_end = at == At::clear;
-      if (is_near_end) clear = value;
-      if (at == At::happens) bad = value;
-    }
-    while (clear && std::abs(*clear - bad) > closest_bracket * std::abs(to - from)) {
-      const double middle = bad + 0.5 * (*clear - bad);
-      const At at = look(middle);
-      const bool is_placed =
-          std::abs(*clear - bad) <= continuation::promised_place * std::max(std::abs(to), width());
-      if (at == At::unknown && is_placed) break;
-      if (at == At::unknown) {
-        result_.doubts.push_back("between " + study_.critical.parameter + " = " +
-                                 rounded(bad * curves_.scale()) + " and " +
-                                 rounded(*clear * curves_.scale()) +
-                                 " the path from the start no longer comes to it, but where is not "
-                                 "known: starts there do not belong to each other");
-        break;
-      }
-      (at == At::clear ? *clear : bad) = middle;
-    }
-    if (is_near_end && !paths_part(bad, *clear)) clear.reset();
-    why_ = told;
-    return clear;
-  }
-
-  /// Do the paths at two values next to each other go different ways?
-  bool paths_part(double a, double b) const {
-    constexpr double parted =
-        1e-6;  // of the size of the state: values next to each other move it far less
-    const auto end = [&](double value) {
-      const BasePath path = load_path(*curves_.at(value), study_.critical, observer_);
-      Vector state;
-      if (!path.problem.empty() || path.forward.points.empty()) return state;
-      const continuation::CurvePoint& last = path.forward.points.back();
-      state.resize(last.x.size() + 1);
-      state << last.x, last.lambda;
-      return state;
-    };
-    const Vector from = end(a), to = end(b);
-    return from.size() > 0 && from.size() == to.size() &&
-           (from - to).norm() > parted * std::max(1.0, from.norm());
+  /// The path may part from the point that is followed. @returns from where on nothing unwanted happens
+  std::optional<double> clear_before(const FollowedPiece& piece) {
+    const Parting parting = parting_on(piece, curves_, study_.critical, observer_);
+    unknown_from_ = parting.unknown_from;
+    if (unknown_from_) why_ = parting.why;
+    other_start_ = parting.at_other_start;
+    if (parting.clear && !parting.is_bracketed)
+      result_.doubts.push_back("between " + study_.critical.parameter + " = " +
+                               rounded(parting.bad * curves_.scale()) + " and " +
+                               rounded(*parting.clear * curves_.scale()) +
+                               " the path from the start no longer comes to it, but where is not "
+                               "known: starts there do not belong to each other");
+    return parting.clear;
   }
 
   /// The point of a curve whose parameter comes nearest to a value before it.
@@ -274,8 +213,9 @@ class Threshold {
              hit.kind != continuation::Degeneracy::extremum &&
              std::abs(hit.point.mu - clear) <= at_degeneracy * width();
     });
-    decides_ = near != curve.hits.end()
-                   ? name_of_degeneracy(near->kind, followed.of)
+    decides_ = near != curve.hits.end() ? name_of_degeneracy(near->kind, followed.of)
+               : other_start_
+                   ? "the start vanishes there, and the path from another one does not come to it"
                    : "the path from the start no longer comes to it" +
                          why_path_misses(curves_, clear, clear, {}, study_.critical, observer_);
     // Where branches cross the point is singular: the nearest one that is known stands for it.
@@ -365,10 +305,12 @@ class Threshold {
   StudyResult& result_;
   ThresholdReport& report_;
   double towards_ = 1;
-  double last_ = 0;        ///< where the last piece ended
-  bool is_alone_ = false;  ///< it is a value, not a piece
-  bool is_clear_ = false;  ///< there the path no longer came to its point
-  bool at_start_ = false;  ///< its point is the start there
+  double last_ = 0;                       ///< where the last piece ended
+  bool is_alone_ = false;                 ///< it is a value, not a piece
+  bool is_clear_ = false;                 ///< there the path no longer came to its point
+  bool at_start_ = false;                 ///< its point is the start there
+  bool other_start_ = false;              ///< from there on the path begins at another start
+  std::optional<double> unknown_from_{};  ///< from there to the end of the range
   std::string decides_{}, why_{};
   std::optional<SpecialPoint> ended_on_{};
 };

@@ -1,0 +1,159 @@
+#include "path_parting.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "beside_answer.hpp"
+#include "first_unwanted.hpp"
+#include "load_path.hpp"
+#include "springfold/continuation/numerics.hpp"
+
+namespace springfold::analysis {
+namespace {
+
+/// So many parts of a piece are looked at, and how closely, in parts of it, the place is bracketed.
+constexpr int values_between = 8;
+constexpr double closest_parting = 1e-12;
+
+class PartingSearch {
+ public:
+  PartingSearch(const FollowedPiece& piece, const CaseCurves& curves,
+                const CriticalPointSettings& settings, const Observer& observer)
+      : piece_{piece},
+        curves_{curves},
+        settings_{settings},
+        observer_{observer},
+        towards_{piece.to > piece.from ? 1.0 : -1.0},
+        sheet_{curves.at(piece.from)->sheet} {}
+
+  Parting run() {
+    result_.bad = piece_.from;
+    look_between();
+    if (!result_.clear && piece_.at_range && last_ == At::unknown) look_before_unknown();
+    const bool is_near_end = !result_.clear && !piece_.at_end && look_near_end();
+    if (result_.clear) bracket();
+    if (is_near_end && !paths_part(result_.bad, *result_.clear)) result_.clear.reset();
+    if (result_.clear) result_.at_other_start = sheet_at(*result_.clear) != sheet_at(result_.bad);
+    return result_;
+  }
+
+ private:
+  enum class At { happens, clear, unknown };
+
+  /// -1: there is no start.
+  int sheet_at(double value) const {
+    const Member* const member = curves_.at(value);
+    return member != nullptr ? member->sheet : -1;
+  }
+
+  double before_end(double distance) const { return beyond_value(piece_.to, towards_, -distance); }
+
+  At look(double value, bool other_starts) {
+    const FirstUnwanted first = first_unwanted(curves_, value, settings_, observer_);
+    const Member* const member = curves_.at(value);
+    why_ = first.why;
+    if (member == nullptr || (!first.point && !first.why.empty())) return At::unknown;
+    if (!other_starts && member->sheet != sheet_) return At::unknown;
+    return first.point ? At::happens : At::clear;
+  }
+
+  void note(double value, At at) {
+    if (at == At::clear) result_.clear = value;
+    if (at == At::happens) result_.bad = value;
+    last_ = at;
+  }
+
+  void look_between() {
+    // Where points merge a path is told from one without them at this distance before.
+    const double last = piece_.at_end ? piece_.to : before_end(distances_beside.back());
+    for (int i = 1; i <= values_between && !result_.clear; ++i) {
+      const bool is_last = i == values_between;
+      const double value =
+          is_last ? last : piece_.from + (piece_.to - piece_.from) * i / values_between;
+      if (towards_ * (last - value) < 0 || towards_ * (value - piece_.from) <= 0) break;
+      note(value, look(value, piece_.at_end || !is_last));
+    }
+  }
+
+  /// The end of the range says nothing, as where its start lies outside of the limits: so far as values say something
+  /// the path is asked whether it comes to the point.
+  void look_before_unknown() {
+    double unknown = piece_.to;
+    std::string why = why_;
+    while (!result_.clear &&
+           std::abs(unknown - result_.bad) > closest_parting * std::abs(piece_.to - piece_.from)) {
+      const double middle = result_.bad + 0.5 * (unknown - result_.bad);
+      const At at = look(middle, true);
+      note(middle, at);
+      if (at != At::unknown) continue;
+      unknown = middle;
+      why = why_;
+    }
+    if (result_.clear) return;
+    result_.unknown_from = unknown;
+    result_.why = why;
+  }
+
+  /// Nearer to its end a path without it may only not tell it from its neighbour: then it is the same path all along.
+  bool look_near_end() {
+    for (std::size_t i = distances_beside.size() - 1; i-- > 0 && !result_.clear;) {
+      const double value = before_end(distances_beside[i]);
+      if (towards_ * (value - result_.bad) <= 0) break;
+      note(value, look(value, false));
+    }
+    return result_.clear.has_value();
+  }
+
+  void bracket() {
+    const double placed =
+        continuation::promised_place * std::max(std::abs(piece_.to), piece_.width);
+    const bool other_starts = sheet_at(*result_.clear) != sheet_;
+    while (std::abs(*result_.clear - result_.bad) >
+           closest_parting * std::abs(piece_.to - piece_.from)) {
+      const double middle = result_.bad + 0.5 * (*result_.clear - result_.bad);
+      const At at = look(middle, other_starts);
+      if (at == At::unknown) {
+        result_.is_bracketed = std::abs(*result_.clear - result_.bad) <= placed;
+        return;
+      }
+      note(middle, at);
+    }
+  }
+
+  /// Do the paths at two values next to each other go different ways?
+  bool paths_part(double a, double b) const {
+    constexpr double parted =
+        1e-6;  // of the size of the state: values next to each other move it far less
+    const auto end = [&](double value) {
+      const BasePath path = load_path(*curves_.at(value), settings_, observer_);
+      Vector state;
+      if (!path.problem.empty() || path.forward.points.empty()) return state;
+      const continuation::CurvePoint& last = path.forward.points.back();
+      state.resize(last.x.size() + 1);
+      state << last.x, last.lambda;
+      return state;
+    };
+    const Vector from = end(a), to = end(b);
+    return from.size() > 0 && from.size() == to.size() &&
+           (from - to).norm() > parted * std::max(1.0, from.norm());
+  }
+
+  const FollowedPiece& piece_;
+  const CaseCurves& curves_;
+  const CriticalPointSettings& settings_;
+  const Observer& observer_;
+  double towards_;
+  int sheet_;
+  Parting result_{};
+  At last_ = At::unknown;  ///< what was found at the value that was looked at last
+  std::string why_{};      ///< why that is unknown
+};
+
+}  // namespace
+
+Parting parting_on(const FollowedPiece& piece, const CaseCurves& curves,
+                   const CriticalPointSettings& settings, const Observer& observer) {
+  return PartingSearch(piece, curves, settings, observer).run();
+}
+
+}  // namespace springfold::analysis
