@@ -242,6 +242,19 @@ const Member& CaseCurves::nearest(double mu) const {
   return is_outward ? *outward : *inward;
 }
 
+/// A member of another sheet than the neighbour's, between it and mu, that was let go: mu belongs to that one.
+std::optional<double> CaseCurves::let_go_between(double mu) const {
+  const Member& inward = *neighbours(mu).inward;
+  const bool ahead = mu > inward.mu;
+  auto known = starts_.lower_bound(mu);
+  if (ahead && known == starts_.begin()) return std::nullopt;
+  if (ahead) --known;
+  const bool is_between =
+      known != starts_.end() && (ahead ? known->first > inward.mu : known->first < inward.mu);
+  if (!is_between || known->first == mu || known->second.sheet == inward.sheet) return std::nullopt;
+  return known->first;
+}
+
 Member* CaseCurves::member_at(double mu) const {
   if (!base_ || !(base_->report.found || begins_at_member_) || !std::isfinite(mu)) return nullptr;
   if (mu == base_->mu) return base_.get();
@@ -252,6 +265,8 @@ Member* CaseCurves::member_at(double mu) const {
   }
   if (without_start_.contains(mu)) return nullptr;
   look_for_line(mu);
+  if (const auto between = let_go_between(mu); between && !starts_.contains(mu))
+    member_at(*between);
   const Member& near = nearest(mu);
   decltype(recent_)::node_type oldest;  // its memory and that of its call are used again
   std::list<double> call;

@@ -114,6 +114,7 @@ class CaseCurves {
   };
   Neighbours neighbours(double mu) const;
   const Member& nearest(double mu) const;
+  std::optional<double> let_go_between(double mu) const;
   void settle_start(Member& member) const;
   std::unique_ptr<Member> make(double mu, const Member* near,
                                std::unique_ptr<Member> spare = nullptr) const;
@@ -125,6 +126,7 @@ class CaseCurves {
   bool solve_beside(Member& member, const Member& near) const;
   std::unique_ptr<Member> on_the_way(double mu, const Member& near) const;
   bool walk_to(Member& member, const Member& near) const;
+  bool solve_behind(Member& member, const Member& near) const;
   bool solve_near(Member& member, const Member& near) const;
   bool solve(Member& member, const statics::StartProblem& problem) const;
   bool solve_by_itself(Member& member) const;

@@ -114,7 +114,7 @@ std::unique_ptr<Member> CaseCurves::on_the_way(double mu, const Member& near) co
 /// Follows the neighbour's start to the member, in steps that are short enough for each to be told from the one before.
 /// @returns false where it vanishes on the way: then it does so on every longer way as well
 bool CaseCurves::walk_to(Member& member, const Member& near) const {
-  constexpr int most_steps = 128;
+  constexpr int most_steps = 4096;
   constexpr double shortest =
       0x1p-20;  // of the way: so near a start is to where it vanishes, and is followed
   const double way = member.mu - near.mu;
@@ -122,28 +122,51 @@ bool CaseCurves::walk_to(Member& member, const Member& near) const {
   if (known != vanished_.end() && (way > 0) == (member.mu >= known->second)) return false;
   std::unique_ptr<Member> here;
   double gone = 0, step = 0.5;
+  bool may_grow = false;  // not just behind a step that was too long
   for (int i = 0; i < most_steps && step >= shortest; ++i) {
     const Member& from = here ? *here : near;
-    if (gone + step >= 1) {
-      if (solve_beside(member, from)) return true;
-      step /= 2;
-      continue;
-    }
-    if (auto next = on_the_way(near.mu + (gone + step) * way, from)) {
+    const bool is_last = gone + step >= 1;
+    if (is_last && solve_beside(member, from)) return true;
+    auto next = is_last ? nullptr : on_the_way(near.mu + (gone + step) * way, from);
+    const bool is_told = next != nullptr;
+    if (is_told) {
       here = std::move(next);
       gone += step;
-      step *= 2;
+      if (may_grow) step *= 2;
     } else {
       step /= 2;
     }
+    may_grow = is_told;
   }
-  vanished_.insert_or_assign({near.sheet, way > 0}, member.mu);
+  if (step < shortest) vanished_.insert_or_assign({near.sheet, way > 0}, member.mu);
   return false;
 }
 
-/// The start that belongs to the neighbour's. Behind a start that vanishes it is that of the neighbour on the other
-/// side, or the member begins as the case with this value does; and where that finds nothing, at whatever start is
-/// found from the neighbour's. A neutral start does not follow its neighbour, which solves its equations as well.
+/// Behind a start that vanishes the member begins as the case with this value does, however it is come to. That may be
+/// the start of the neighbour on the other side; next to that it is.
+bool CaseCurves::solve_behind(Member& member, const Member& near) const {
+  const Member* outward = base_ != nullptr ? neighbours(member.mu).outward : nullptr;
+  if (outward != nullptr && outward->sheet == near.sheet) outward = nullptr;
+  const bool is_next = outward != nullptr && std::abs(outward->mu - member.mu) <= grid_step;
+  if (is_next && solve_beside(member, *outward)) return true;
+  member.sheet = ++sheets_;
+  if (keeps_commands(member.study) || !solve_by_itself(member))
+    return outward != nullptr && solve_beside(member, *outward);
+  if (outward != nullptr) {
+    constexpr double one_start = 1e-6;  // starts are known better
+    const statics::FirstEquilibrium own = member.first;
+    if (!solve_beside(member, *outward) || (member.first.z - own.z).norm() > one_start) {
+      member.first = own;
+      member.sheet = sheets_;
+      member.report.found = true;
+    }
+  }
+  if (!member.first.factors) member.first.factors = start_factors(member);
+  return true;
+}
+
+/// The start that belongs to the neighbour's, or the one behind it; and where there is none, at whatever start is found
+/// from the neighbour's. A neutral start does not follow its neighbour, which solves its equations as well.
 bool CaseCurves::solve_near(Member& member, const Member& near) const {
   if (starts_move_freely() && solve_by_itself(member)) {
     member.sheet = near.sheet;
@@ -151,17 +174,11 @@ bool CaseCurves::solve_near(Member& member, const Member& near) const {
   }
   if (solve_beside(member, near)) return true;
   // Curves may begin at a member of others, whose parameter is another one: it is no neighbour.
-  if (base_ != nullptr) {
-    if (walk_to(member, near)) return true;
-    const Member* const outward = neighbours(member.mu).outward;
-    if (outward != nullptr && outward->sheet != near.sheet && solve_beside(member, *outward))
-      return true;
-  }
+  if (base_ != nullptr && walk_to(member, near)) return true;
+  if (solve_behind(member, near)) return true;
   member.sheet = ++sheets_;
   const auto problem = problem_beside(member, near);
-  if (!problem) return false;
-  if (!(!keeps_commands(member.study) && solve_by_itself(member)) && !solve(member, *problem))
-    return false;
+  if (!problem || !solve(member, *problem)) return false;
   member.first.factors = start_factors(member);
   return true;
 }

@@ -47,15 +47,20 @@ bool go_by_factors(StartEquations& equations, const Lu& factors, StartState& sta
 /// Newton's method from the solution of a neighbour, no farther than where its steps shrink as they do near one
 /// solution (Kantorovich: the first one bounds the way to it by twice its length while a step is at most a quarter of
 /// the one before). A step that does not is the sign of a singular matrix on the way, and behind that may be another
-/// equilibrium. So is a determinant of another sign than the neighbour's, at its own state too.
+/// equilibrium. So is a determinant of another sign than the neighbour's, at its own state too. Where a spring switches
+/// the step behind that is another one however short the way is: it has to be short itself.
 bool go_by_newton(const System& system, StartEquations& equations, const Lu* neighbour,
                   StartState& state, int& steps, double& residual) {
   constexpr int most = 8;
   constexpr double contracts = 0.25;
+  constexpr double beside_kink =
+      1e-4;  // where both determinants agree the equilibrium goes on over it
   const double rounding = std::sqrt(std::numeric_limits<double>::epsilon());
   Vector r;
   Matrix J;
   double before = infinity;
+  Piece piece = piece_at(system, state.z, state.inputs.rho);
+  bool has_switched = false;
   for (steps = 0; steps < most; ++steps) {
     if (!equations.residual(state, r) || !equations.jacobian(state, J)) return false;
     residual = r.lpNorm<Eigen::Infinity>();
@@ -66,9 +71,12 @@ bool go_by_newton(const System& system, StartEquations& equations, const Lu* nei
     const Vector here = state.z;
     equations.unpack(equations.pack(state) - step, state);
     const double moved = farthest_coordinate(system, state.z, here);
-    if (moved > std::max(contracts * before, rounding)) return false;
-    if (moved <= rounding) break;
+    if (moved > std::max(contracts * before, has_switched ? beside_kink : rounding)) return false;
+    Piece now = piece_at(system, state.z, state.inputs.rho);
+    has_switched = now != piece;
+    if (moved <= rounding && !has_switched) break;
     before = moved;
+    piece = std::move(now);
   }
   residual = polish(equations, state, steps);
   return equations.solved(state, start_tolerance);
