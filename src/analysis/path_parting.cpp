@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "beside_answer.hpp"
+#include "cut_curve.hpp"
 #include "first_unwanted.hpp"
 #include "load_path.hpp"
+#include "load_pieces.hpp"
 #include "springfold/continuation/numerics.hpp"
 
 namespace springfold::analysis {
@@ -29,16 +31,17 @@ class PartingSearch {
   Parting run() {
     result_.bad = piece_.from;
     look_between();
-    if (!result_.clear && piece_.at_range && last_ == At::unknown) look_before_unknown();
-    const bool is_near_end = !result_.clear && !piece_.at_end && look_near_end();
-    if (result_.clear) bracket();
-    if (is_near_end && !paths_part(result_.bad, *result_.clear)) result_.clear.reset();
+    if (!parts_at() && piece_.at_range && last_ == At::unknown) look_before_unknown();
+    const bool is_near_end = !parts_at() && !piece_.at_end && look_near_end();
+    if (parts_at()) bracket();
+    if (is_near_end && result_.clear && !paths_part(result_.bad, *result_.clear))
+      result_.clear.reset();
     if (result_.clear) result_.at_other_start = sheet_at(*result_.clear) != sheet_at(result_.bad);
     return result_;
   }
 
  private:
-  enum class At { happens, clear, unknown };
+  enum class At { happens, another, clear, unknown };
 
   /// -1: there is no start.
   int sheet_at(double value) const {
@@ -54,24 +57,41 @@ class PartingSearch {
     why_ = first.why;
     if (member == nullptr || (!first.point && !first.why.empty())) return At::unknown;
     if (!other_starts && member->sheet != sheet_) return At::unknown;
-    return first.point ? At::happens : At::clear;
+    if (!first.point) return At::clear;
+    return is_another(first.point->hit.point.lambda, value) ? At::another : At::happens;
+  }
+
+  /// Has what comes first there another load than the point that is followed?
+  bool is_another(double lambda, double value) const {
+    const auto here = point_of_curve(curves_, *piece_.start, *piece_.curve, value, 0);
+    return here && std::abs(here->lambda - lambda) > same_load * (1 + std::abs(lambda));
   }
 
   void note(double value, At at) {
-    if (at == At::clear) result_.clear = value;
+    if (at == At::clear || at == At::another) {
+      result_.clear.reset();
+      result_.another.reset();
+      (at == At::clear ? result_.clear : result_.another) = value;
+    }
     if (at == At::happens) result_.bad = value;
     last_ = at;
   }
 
+  std::optional<double> parts_at() const { return result_.clear ? result_.clear : result_.another; }
+
+  static At at_own(At at) { return at == At::another ? At::happens : at; }
+
   void look_between() {
     // Where points merge a path is told from one without them at this distance before.
     const double last = piece_.at_end ? piece_.to : before_end(distances_beside.back());
-    for (int i = 1; i <= values_between && !result_.clear; ++i) {
+    for (int i = 1; i <= values_between && !parts_at(); ++i) {
       const bool is_last = i == values_between;
       const double value =
           is_last ? last : piece_.from + (piece_.to - piece_.from) * i / values_between;
       if (towards_ * (last - value) < 0 || towards_ * (value - piece_.from) <= 0) break;
-      note(value, look(value, piece_.at_end || !is_last));
+      const At at = look(value, piece_.at_end || !is_last);
+      // Next to where points merge, or branches cross, they have nearly the same load.
+      note(value, is_last && !piece_.at_end ? at_own(at) : at);
     }
   }
 
@@ -80,7 +100,7 @@ class PartingSearch {
   void look_before_unknown() {
     double unknown = piece_.to;
     std::string why = why_;
-    while (!result_.clear &&
+    while (!parts_at() &&
            std::abs(unknown - result_.bad) > closest_parting * std::abs(piece_.to - piece_.from)) {
       const double middle = result_.bad + 0.5 * (unknown - result_.bad);
       const At at = look(middle, true);
@@ -89,17 +109,17 @@ class PartingSearch {
       unknown = middle;
       why = why_;
     }
-    if (result_.clear) return;
+    if (parts_at()) return;
     result_.unknown_from = unknown;
     result_.why = why;
   }
 
   /// Nearer to its end a path without it may only not tell it from its neighbour: then it is the same path all along.
   bool look_near_end() {
-    for (std::size_t i = distances_beside.size() - 1; i-- > 0 && !result_.clear;) {
+    for (std::size_t i = distances_beside.size() - 1; i-- > 0 && !parts_at();) {
       const double value = before_end(distances_beside[i]);
       if (towards_ * (value - result_.bad) <= 0) break;
-      note(value, look(value, false));
+      note(value, at_own(look(value, false)));
     }
     return result_.clear.has_value();
   }
@@ -107,13 +127,13 @@ class PartingSearch {
   void bracket() {
     const double placed =
         continuation::promised_place * std::max(std::abs(piece_.to), piece_.width);
-    const bool other_starts = sheet_at(*result_.clear) != sheet_;
-    while (std::abs(*result_.clear - result_.bad) >
+    const bool other_starts = sheet_at(*parts_at()) != sheet_;
+    while (std::abs(*parts_at() - result_.bad) >
            closest_parting * std::abs(piece_.to - piece_.from)) {
-      const double middle = result_.bad + 0.5 * (*result_.clear - result_.bad);
+      const double middle = result_.bad + 0.5 * (*parts_at() - result_.bad);
       const At at = look(middle, other_starts);
       if (at == At::unknown) {
-        result_.is_bracketed = std::abs(*result_.clear - result_.bad) <= placed;
+        result_.is_bracketed = std::abs(*parts_at() - result_.bad) <= placed;
         return;
       }
       note(middle, at);

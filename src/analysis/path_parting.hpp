@@ -14,15 +14,18 @@ struct FollowedPiece {
   double from = 0, to = 0;
   bool at_end = false;    ///< the point is still there at `to`; otherwise it is gone there
   bool at_range = false;  ///< at_end: `to` is the end of the range
-  double width = 1;       ///< of the parameter's range
+  const continuation::CriticalStart* start = nullptr;
+  const continuation::CriticalCurve* curve = nullptr;  ///< of the point, from there
+  double width = 1;                                    ///< of the parameter's range
 };
 
 struct Parting {
-  std::optional<double> clear{};  ///< from there on nothing unwanted happens on the path
+  std::optional<double> clear{};    ///< from there on nothing unwanted happens on the path
+  std::optional<double> another{};  ///< from there on another point comes first
   bool at_other_start =
       false;  ///< for there the start vanishes, and the path begins at another one
   bool is_bracketed =
-      true;  ///< `clear` is known to rounding; otherwise it lies between `bad` and this value
+      true;  ///< either is known to rounding; otherwise it lies between `bad` and this value
   /// From there to the end of the range, where the point that is followed still is, nothing is known of the path.
   std::optional<double> unknown_from{};
   std::string why{};  ///< why not
@@ -30,7 +33,8 @@ struct Parting {
 };
 
 /// Traces the paths at values between: the point that is followed may leave the path from the start, as where branches
-/// cross, or where the start vanishes and the path begins at another one. Beside the place where it is gone only paths
+/// cross, or where the start vanishes and the path begins at another one; or another point may come first, with a curve
+/// of its own. Beside the place where it is gone only paths
 /// whose starts belong to that of the first value are asked.
 Parting parting_on(const FollowedPiece& piece, const CaseCurves& curves,
                    const CriticalPointSettings& settings, const Observer& observer);

@@ -156,41 +156,43 @@ class Threshold {
     const bool at_its_load = end == curve.hits.end() && ends_at_start_of_path(curve);
     at_start_ = at_its_load && loses_start(last.mu);
     if (at_start_) decides_ = at_start_of_path(bad.kind);
-    const std::optional<double> clear =
-        clear_before({.from = mu,
-                      .to = last.mu,
-                      .at_end = at_range || (at_its_load && !at_start_),
-                      .at_range = at_range,
-                      .width = width()});
-    is_clear_ = clear.has_value();
-    at_start_ = at_start_ && !is_clear_;
-    if (clear) end_where_clear(*clear, followed, last);
+    const Parting parting = parting_of({.from = mu,
+                                        .to = last.mu,
+                                        .at_end = at_range || (at_its_load && !at_start_),
+                                        .at_range = at_range,
+                                        .start = &followed.start,
+                                        .curve = &curve,
+                                        .width = width()});
+    is_clear_ = parting.clear.has_value();
+    at_start_ = at_start_ && !is_clear_ && !parting.another;
+    if (is_clear_) end_where_clear(*parting.clear, parting.at_other_start, followed, last);
+    if (parting.another) end_at(*parting.another, another_is_first, followed, last);
     followed.falling.points = {curve.points.front()};
     followed.falling.stop = continuation::StopReason::event;
     followed.falling.stop_detail = "begins at " + bad.label;
     result_.branches.push_back(rows_of(curves_, followed));
     last_ = last.mu;
     ended_on_ = bad;
-    if (unknown_from_)
-      doubt(*unknown_from_);
-    else if (at_range && !clear)
+    const bool goes_on = !at_range || is_clear_ || parting.another;
+    if (parting.unknown_from) {
+      why_ = parting.why;
+      doubt(*parting.unknown_from);
+    } else if (!goes_on) {
       none(bad.label);
-    return !at_range || clear;
+    }
+    return goes_on;
   }
 
-  /// The path may part from the point that is followed. @returns from where on nothing unwanted happens
-  std::optional<double> clear_before(const FollowedPiece& piece) {
+  /// The path may part from the point that is followed.
+  Parting parting_of(const FollowedPiece& piece) {
     const Parting parting = parting_on(piece, curves_, study_.critical, observer_);
-    unknown_from_ = parting.unknown_from;
-    if (unknown_from_) why_ = parting.why;
-    other_start_ = parting.at_other_start;
     if (parting.clear && !parting.is_bracketed)
       result_.doubts.push_back("between " + study_.critical.parameter + " = " +
                                rounded(parting.bad * curves_.scale()) + " and " +
                                rounded(*parting.clear * curves_.scale()) +
                                " the path from the start no longer comes to it, but where is not "
                                "known: starts there do not belong to each other");
-    return parting.clear;
+    return parting;
   }
 
   /// The point of a curve whose parameter comes nearest to a value before it.
@@ -206,23 +208,30 @@ class Threshold {
   }
 
   /// @param last  becomes the curve's last point
-  void end_where_clear(double clear, FollowedCurve& followed, CriticalPoint& last) {
-    CriticalCurve& curve = followed.growing;
+  void end_where_clear(double clear, bool at_other_start, FollowedCurve& followed,
+                       CriticalPoint& last) {
+    const CriticalCurve& curve = followed.growing;
     const auto near = std::find_if(curve.hits.begin(), curve.hits.end(), [&](const auto& hit) {
       return hit.kind != continuation::Degeneracy::user &&
              hit.kind != continuation::Degeneracy::extremum &&
              std::abs(hit.point.mu - clear) <= at_degeneracy * width();
     });
-    decides_ = near != curve.hits.end() ? name_of_degeneracy(near->kind, followed.of)
-               : other_start_
-                   ? "the start vanishes there, and the path from another one does not come to it"
-                   : "the path from the start no longer comes to it" +
-                         why_path_misses(curves_, clear, clear, {}, study_.critical, observer_);
+    const std::string why =
+        near != curve.hits.end() ? name_of_degeneracy(near->kind, followed.of)
+        : at_other_start
+            ? "the start vanishes there, and the path from another one does not come to it"
+            : "the path from the start no longer comes to it" +
+                  why_path_misses(curves_, clear, clear, {}, study_.critical, observer_);
+    end_at(clear, why, followed, last);
+  }
+
+  void end_at(double mu, const std::string& why, FollowedCurve& followed, CriticalPoint& last) {
+    decides_ = why;
     // Where branches cross the point is singular: the nearest one that is known stands for it.
-    last = point_of_curve(curves_, followed.start, curve, clear, 0)
-               .value_or(nearest_before(curve, clear));
-    last.mu = clear;
-    end_curve_at(last, decides_, curve);
+    last = point_of_curve(curves_, followed.start, followed.growing, mu, 0)
+               .value_or(nearest_before(followed.growing, mu));
+    last.mu = mu;
+    end_curve_at(last, decides_, followed.growing);
   }
 
   void none(const std::string& piece) {
@@ -305,12 +314,10 @@ class Threshold {
   StudyResult& result_;
   ThresholdReport& report_;
   double towards_ = 1;
-  double last_ = 0;                       ///< where the last piece ended
-  bool is_alone_ = false;                 ///< it is a value, not a piece
-  bool is_clear_ = false;                 ///< there the path no longer came to its point
-  bool at_start_ = false;                 ///< its point is the start there
-  bool other_start_ = false;              ///< from there on the path begins at another start
-  std::optional<double> unknown_from_{};  ///< from there to the end of the range
+  double last_ = 0;        ///< where the last piece ended
+  bool is_alone_ = false;  ///< it is a value, not a piece
+  bool is_clear_ = false;  ///< there the path no longer came to its point
+  bool at_start_ = false;  ///< its point is the start there
   std::string decides_{}, why_{};
   std::optional<SpecialPoint> ended_on_{};
 };

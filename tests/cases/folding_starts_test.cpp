@@ -1,9 +1,13 @@
 // Thresholds of paths whose start vanishes, or leaves the limits, at a value of the parameter.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
 
 #include "case_runs.hpp"
+#include "number_text.hpp"
 #include "small_structures.hpp"
 
 namespace springfold::io {
@@ -96,6 +100,167 @@ until = { lambda = [1.9, 3.5] }
   EXPECT_NEAR(found->value, fold, 1e-8);
   EXPECT_TRUE(found->verified);
   EXPECT_THAT(found->message, HasSubstr("the start vanishes there"));
+}
+
+/// Two nodes on bars, drawn at random. The start has several sheets over p.
+const std::string start_of_three_sheets = R"toml([[node]]
+name = "n0"
+at = [-0.585, 0.087]
+[[node]]
+name = "n1"
+at = [0.249, -0.097]
+[[bar]]
+name = "b0"
+from = "base"
+from_at = [0.354, 0.459]
+to = "n0"
+stiffness = 1.491
+free = 0.956
+[[bar]]
+name = "b1"
+from = "base"
+from_at = [1.235, -0.514]
+to = "n0"
+stiffness = 0.664
+free = "p"
+[[bar]]
+name = "b2"
+from = "base"
+from_at = [0.944, 0.156]
+to = "n1"
+stiffness = 0.928
+free = 0.845
+[[bar]]
+name = "b3"
+from = "base"
+from_at = [-0.344, 0.775]
+to = "n1"
+stiffness = 0.608
+free = 0.963
+[[bar]]
+name = "b4"
+from = "n0"
+to = "n1"
+stiffness = 1.972
+free = 0.837
+[[spring]]
+name = "b5"
+from = "base"
+from_at = [0.314, 0.045]
+to = "n0"
+stiffness = 0.085
+free = 0
+[[spring]]
+name = "b6"
+from = "base"
+from_at = [0.310, 0.348]
+to = "n1"
+stiffness = 0.057
+free = 0
+)toml";
+
+/// The same; between 1.682 and 1.741 nothing is lost, for the path leaves its limits before.
+const std::string window_without_loss = R"toml([[node]]
+name = "n0"
+at = [-0.676, -0.067]
+[[node]]
+name = "n1"
+at = [0.338, -0.058]
+[[bar]]
+name = "b0"
+from = "base"
+from_at = [0.095, 1.140]
+to = "n0"
+stiffness = 1.710
+free = 1.538
+[[bar]]
+name = "b1"
+from = "base"
+from_at = [0.322, 1.107]
+to = "n0"
+stiffness = 0.970
+free = "p"
+[[bar]]
+name = "b2"
+from = "base"
+from_at = [-1.060, -0.182]
+to = "n1"
+stiffness = 0.790
+free = 1.432
+[[bar]]
+name = "b3"
+from = "base"
+from_at = [1.178, 0.660]
+to = "n1"
+stiffness = 1.971
+free = 0.892
+[[bar]]
+name = "b4"
+from = "n0"
+to = "n1"
+stiffness = 1.065
+free = 0.928
+[[spring]]
+name = "b5"
+from = "base"
+from_at = [0.180, 0.368]
+to = "n0"
+stiffness = 0.063
+free = 0
+[[spring]]
+name = "b6"
+from = "base"
+from_at = [0.026, 0.382]
+to = "n1"
+stiffness = 0.057
+free = 0
+)toml";
+
+std::string pulled(const std::string& p, const std::string& network, const std::string& direction) {
+  return "[parameters]\np = " + p + "\n" + network +
+         "[[study]]\nname = \"s\"\nbody = \"n0\"\ncontrol = \"load\"\ndirection = " + direction +
+         "\nuntil = { n0.x = [-1.6, 1.6], n0.y = [-1.6, 1.6], lambda = [-1e-9, 5] }\n";
+}
+
+bool has_limit_point(double p, const std::string& network, const std::string& direction) {
+  const Ran runs = run(pulled(number(p), network, direction));
+  const auto loads = lambdas(runs.of("s"), analysis::EventKind::limit_point);
+  return std::any_of(loads.begin(), loads.end(), [](double lambda) { return lambda > 0; });
+}
+
+TEST(FoldingStarts, AThresholdAgreesWithRunsAtSingleValues) {
+  const std::pair<std::string, std::string> nets[]{{start_of_three_sheets, "[-0.711, -0.703]"},
+                                                   {window_without_loss, "[0.377, 0.926]"}};
+  for (const auto& [network, direction] : nets) {
+    const Ran runs = run(pulled("1.75", network, direction) + R"toml(kind = "threshold"
+threshold = { of = "loss_of_stability", parameter = "p", range = [0.7, 3.5], value = "largest" }
+)toml");
+    const auto& threshold = runs.of("s").threshold;
+    ASSERT_TRUE(threshold && threshold->found) << direction;
+    EXPECT_TRUE(threshold->verified);
+    EXPECT_TRUE(has_limit_point(threshold->value + 1e-4, network, direction)) << direction;
+    EXPECT_FALSE(has_limit_point(threshold->value - 1e-4, network, direction)) << direction;
+  }
+}
+
+TEST(FoldingStarts, AThresholdIsWhereFirstCriticalLoadsBegin) {
+  const std::pair<std::string, std::string> nets[]{{start_of_three_sheets, "[-0.711, -0.703]"},
+                                                   {window_without_loss, "[0.377, 0.926]"}};
+  for (const auto& [network, direction] : nets) {
+    const std::string range = "of = \"loss_of_stability\", parameter = \"p\", range = [0.7, 3.5]";
+    const Ran one =
+        run(pulled("1.75", network, direction) + "kind = \"threshold\"\nthreshold = { " + range +
+            ", value = \"largest\" }\n");
+    const Ran all =
+        run(pulled("1.75", network, direction) + "kind = \"critical_load\"\ncritical_load = { " +
+            range + ", values = 15 }\n");
+    EXPECT_TRUE(complete(all.of("s")));
+    double nearest = 1;
+    for (const analysis::Branch& branch : all.of("s").branches)
+      for (const auto* end : {&branch.samples.front(), &branch.samples.back()})
+        nearest = std::min(nearest, std::abs(end->values.back() - one.of("s").threshold->value));
+    EXPECT_LT(nearest, 1e-8) << direction;
+  }
 }
 
 TEST(FoldingStarts, AThresholdThatTheLimitsHideIsUnresolvedWhereTheyBegin) {
