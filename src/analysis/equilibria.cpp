@@ -139,9 +139,11 @@ Candidates candidates(const SearchContext& context, const Study& study) {
   Candidates all;
   all.search = search_equilibria(problem, study, context.quantities, context.start,
                                  context.in_range, context.observer);
-  // A spring of no length pulls nowhere.
+  // A spring of no length pulls nowhere, and an angle that jumps has no moment.
   std::erase_if(all.search.found, [&](const FoundEquilibrium& f) {
-    return without_direction(problem.system(0), f.z, problem.inputs(0)).has_value();
+    const statics::Inputs inputs = problem.inputs(0);
+    return without_direction(problem.system(0), f.z, inputs).has_value() ||
+           stands_at_jump(problem.system(0), f.z, inputs);
   });
   all.full = full_ranks(context.evaluator, all.search.found);
   std::vector<CountedEquilibrium> raw, once;

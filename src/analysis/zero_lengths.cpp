@@ -158,6 +158,12 @@ std::optional<std::string> without_direction(const statics::System& system, cons
   return std::nullopt;
 }
 
+bool stands_at_jump(const statics::System& system, const Vector& z, const statics::Inputs& inputs) {
+  const std::vector<double> angles = spring_edges(system, z, inputs).angles;
+  return std::ranges::any_of(
+      angles, [](double angle) { return std::abs(angle) >= std::numbers::pi - rounded_length; });
+}
+
 std::optional<std::string> led_over_edge(const statics::System& system, const SpringEdges& before,
                                          const SpringEdges& after) {
   for (std::size_t i = 0; i < std::min(before.vectors.size(), after.vectors.size()); ++i) {

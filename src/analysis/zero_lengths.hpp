@@ -30,6 +30,9 @@ SpringEdges spring_edges(const statics::System& system, const Vector& z,
 std::optional<std::string> without_direction(const statics::System& system, const Vector& z,
                                              const statics::Inputs& inputs);
 
+/// Does an angle with a moment stand where it jumps by a whole turn? Its energy jumps there: it is no equilibrium.
+bool stands_at_jump(const statics::System& system, const Vector& z, const statics::Inputs& inputs);
+
 /// Why a curve does not lead from the first of these states to the second: a spring is turned round there without being
 /// turned aside, or an angle jumps by whole turns. Nothing where it does.
 std::optional<std::string> led_over_edge(const statics::System& system, const SpringEdges& before,

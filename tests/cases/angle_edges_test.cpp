@@ -77,5 +77,108 @@ TEST(FoldsOfNodes, EndTheCurveWhereAPointIsOnTheirEdge) {
   EXPECT_THAT(branch.forward.reason, HasSubstr("s would be led through its edge"));
 }
 
+TEST(Folds, ThatAreClosedFlatAreNoEquilibriaWhereTheirEnergyJumps) {
+  // A vertex of four creases: faces that lie on each other, at the angle of a whole turn, balance all else.
+  const auto result = run(R"toml(
+[[node]]
+name = "n0"
+at = [0, 0, 0.1065]
+[[node]]
+name = "n1"
+at = [1, 0, 0]
+fixed = true
+[[node]]
+name = "n2"
+at = [0, 1, 0]
+fixed = ["y", "z"]
+[[node]]
+name = "n3"
+at = [-1, 0, 0]
+fixed = ["z"]
+[[node]]
+name = "n4"
+at = [0, -1, 0]
+[[bar]]
+from = "n0"
+to = "n1"
+stiffness = 5
+free = 1.006
+[[bar]]
+from = "n1"
+to = "n2"
+stiffness = 5
+free = 1.414
+[[bar]]
+from = "n0"
+to = "n2"
+stiffness = 5
+free = 1.006
+[[bar]]
+from = "n2"
+to = "n3"
+stiffness = 5
+free = 1.414
+[[bar]]
+from = "n0"
+to = "n3"
+stiffness = 5
+free = 1.006
+[[bar]]
+from = "n3"
+to = "n4"
+stiffness = 5
+free = 1.414
+[[bar]]
+from = "n0"
+to = "n4"
+stiffness = 5
+free = 1.006
+[[bar]]
+from = "n4"
+to = "n1"
+stiffness = 5
+free = 1.414
+[[spring]]
+name = "f0"
+shape = "fold"
+of = ["n4", "n0", "n1", "n2"]
+stiffness = 0.228
+free = 3.269
+[[spring]]
+name = "f1"
+shape = "fold"
+of = ["n1", "n0", "n2", "n3"]
+stiffness = 0.228
+free = 3.427
+[[spring]]
+name = "f2"
+shape = "fold"
+of = ["n2", "n0", "n3", "n4"]
+stiffness = 0.228
+free = 2.684
+[[spring]]
+name = "f3"
+shape = "fold"
+of = ["n3", "n0", "n4", "n1"]
+stiffness = 0.228
+free = 2.877
+[[study]]
+name = "e"
+kind = "equilibria"
+body = "n0"
+search = { starts = 60 }
+)toml")
+                          .of("e");
+  ASSERT_TRUE(result.equilibria);
+  EXPECT_GE(result.equilibria->list.size(), 16U);
+  for (const std::string fold : {"f0", "f1", "f2", "f3"}) {
+    const std::size_t i = column(result, fold + ".angle");
+    for (const auto& equilibrium : result.equilibria->list) {
+      EXPECT_GT(equilibrium.sample.values[i], 1e-6) << equilibrium.label;
+      EXPECT_LT(equilibrium.sample.values[i], 2 * std::numbers::pi - 1e-6) << equilibrium.label;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace springfold::io
