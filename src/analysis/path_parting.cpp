@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "beside_answer.hpp"
 #include "cut_curve.hpp"
@@ -13,7 +14,7 @@
 namespace springfold::analysis {
 namespace {
 
-/// So many parts of a piece are looked at, and how closely, in parts of it, the place is bracketed.
+/// So many parts of a piece are looked at, and how closely, in parts of it, places are bracketed.
 constexpr int values_between = 8;
 constexpr double closest_parting = 1e-12;
 
@@ -47,6 +48,13 @@ class PartingSearch {
   int sheet_at(double value) const {
     const Member* const member = curves_.at(value);
     return member != nullptr ? member->sheet : -1;
+  }
+
+  /// How closely places are bracketed: short pieces to rounding.
+  double closest() const {
+    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+    return std::max(closest_parting * std::abs(piece_.to - piece_.from),
+                    rounding * std::abs(piece_.to));
   }
 
   double before_end(double distance) const { return beyond_value(piece_.to, towards_, -distance); }
@@ -100,8 +108,7 @@ class PartingSearch {
   void look_before_unknown() {
     double unknown = piece_.to;
     std::string why = why_;
-    while (!parts_at() &&
-           std::abs(unknown - result_.bad) > closest_parting * std::abs(piece_.to - piece_.from)) {
+    while (!parts_at() && std::abs(unknown - result_.bad) > closest()) {
       const double middle = result_.bad + 0.5 * (unknown - result_.bad);
       const At at = look(middle, true);
       note(middle, at);
@@ -128,8 +135,7 @@ class PartingSearch {
     const double placed =
         continuation::promised_place * std::max(std::abs(piece_.to), piece_.width);
     const bool other_starts = sheet_at(*parts_at()) != sheet_;
-    while (std::abs(*parts_at() - result_.bad) >
-           closest_parting * std::abs(piece_.to - piece_.from)) {
+    while (std::abs(*parts_at() - result_.bad) > closest()) {
       const double middle = result_.bad + 0.5 * (*parts_at() - result_.bad);
       const At at = look(middle, other_starts);
       if (at == At::unknown) {
